@@ -1,5 +1,5 @@
-// Jobs: scans together with the options of their relief. A job is loaded and prepared once. The result is a
-// live model, which makes solids in seconds, and frames and pictures in milliseconds.
+// Loads and prepares jobs. A job consists of scans and the options of their relief. The result is a live
+// model, which makes solids in seconds, and frames and pictures in milliseconds.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Makes a solid with a relief from a scan, in one call. The steps of that call are functions, too: sample the
+// Makes a solid with a relief from a scan, in one call. Each step of that call is also a function: sample the
 // points that a view shows (sample_for_view), find their surface and factor its system (prepare), and make
 // the solid (make_relief).
 #pragma once
@@ -58,12 +58,12 @@ struct ReliefReport : ScanReport {
   std::optional<double> height_usual_mm;  // default height if none was requested, see effective_height_mm()
   double height_mm = 0;        // height of the front above its base, from the lowest to the highest point
   double below_ground_mm = 0;  // the part of height_mm below the flat ground; for a die, all of height_mm
-  double steepest_deg = 0;     // steepest slope of a triangle of the front, rounded as in files
+  double steepest_deg = 0;     // steepest slope of the front's triangles, rounded as in files
 
-  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. In x and y
-  // this is exact. In z the model keeps its uncompressed depth, and its lowest visible point is on the ground
-  // (with a curved base, on the ground in the middle of the plate). For a mirrored form `rotation` includes
-  // the reflection.
+  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
+  // exact in x and y. In z it keeps the uncompressed depth of the model, whose lowest visible point is on the
+  // ground. With a curved base, that is the ground in the middle of the plate. For a mirrored form `rotation`
+  // includes the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
@@ -113,7 +113,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
                                Progress* progress = nullptr);
 
 // Returns the height in mm of the highest relief with the options' shape whose walls satisfy the draft angle,
-// if there is one. The method must have a shape, see has_shape(). Errors: those of make_relief().
+// if the options have one. The method must have a shape, see has_shape(). Errors: those of make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 

@@ -1,6 +1,6 @@
-// The table of options: a single entry describes everything about an option. The command line, projects, the
-// studio with its page, batch, Python, npm and the documents have no lists of their own; they use
-// option_table().
+// Declares the table of options, in which a single entry describes everything about an option. The command
+// line, projects, the studio with its page, batch, Python, npm and the documents have no lists of their own;
+// they use option_table().
 #pragma once
 
 #include <array>
@@ -49,8 +49,7 @@ using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 // the default.
 struct OptionTargets;
 struct OptionAccess {
-  // Reads a value of the option's type into `to`. The input of an error may be empty; then the caller sets
-  // it.
+  // Reads a value of the option's type into `to`. Error::input may be empty; then the caller sets it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
   // Returns the effective number of the option; nothing if it has none. The pointer is null for options that
   // are texts.
@@ -64,7 +63,7 @@ struct OptionRow {
   OptionStage stage = OptionStage::view;
   double min = -std::numeric_limits<double>::infinity();  // range of a number
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string_view> choices = {};  // all words that the value may be or begin with
+  std::vector<std::string_view> choices = {};  // words that are allowed as the value or at its beginning
   std::string_view help;                       // one line, without range and default
   OptionValue initial = {};                    // the default, if it is a fixed value
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
@@ -87,7 +86,7 @@ std::span<const OptionRow> option_table();
 // Returns the option with that name; null if there is none.
 const OptionRow* find_option(std::string_view name);
 
-// Returns the expected type of an option's value, as in errors: "expected a number".
+// Returns the expected type of an option's value for errors, such as "expected a number".
 std::string_view expected_type(const OptionRow& option);
 
 // Returns an error of kind option, naming the option, if the number is outside its range.
@@ -99,8 +98,8 @@ Result<void> check_range(const OptionRow& option, double number);
 // parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
-// Returns the options of depth images in the values, without the camera. Other options are ignored. Errors:
-// kind option, naming the option.
+// Returns those of the values that are options of depth images, except the camera. Other options are ignored.
+// Errors: kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
 
 // Returns whether the values ask to keep doubtful points, see ReadOptions. Other options are ignored. Errors:

@@ -1,4 +1,4 @@
-// The options of a relief as typed values, which a program sets, or parse_options() reads.
+// Defines the options of a relief as typed values. A program sets them itself, or parse_options() reads them.
 #pragma once
 
 #include <algorithm>
@@ -40,7 +40,7 @@ struct NumericOptions {
   double colour_mm = 0;                      // depth by which dark lines of the scan are lowered
   std::optional<double> draft_deg;       // least angle between every triangle and the vertical; default: none
   std::optional<double> boundary_width;  // width of the soft rim, in rho; see effective_boundary_width()
-  double steps = 0;                      // least share of the height for depth jumps, see Shape
+  double steps = 0;                      // least share of the height for steps at depth jumps, see Shape
   std::optional<double> planes;          // least step between parts, see Shape; see effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
   double corner_mm = 5;                  // radius of the corners of Outline::round

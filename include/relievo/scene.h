@@ -113,8 +113,8 @@ double usual_points(const Scene& scene);
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 
-// Returns the plate with the relief of the scene, like make_relief() for a file. Frees the clouds as soon as their
-// points are sampled, unless others own them, too.
+// Returns the plate with the relief of the scene, like make_relief() for a file. Frees the clouds as soon as
+// their points are sampled, unless the caller owns them, too.
 Result<MadeRelief> make_relief(Scene scene, const ReliefOptions& options, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
-// Coarse reliefs for display while a model is turned. They have about 18,000 points, take a few hundredths of
-// a second, and are shaded by the normals of all points of the scan.
+// Makes coarse reliefs for display while a model is turned. They have about 18,000 points, take a few
+// hundredths of a second, and are shaded by the normals of all points of the scan.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The points for the relief of a view, and notes on how they were sampled.
+// Describes the points for the relief of a view, and how they were sampled.
 #pragma once
 
 #include <cstddef>

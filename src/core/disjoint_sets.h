@@ -1,4 +1,4 @@
-// Disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving.
+// Implements disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving.
 #pragma once
 
 #include <numeric>

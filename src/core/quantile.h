@@ -1,4 +1,5 @@
-// Order statistics. These functions take linear time, and reorder their argument, which must not be empty.
+// Computes order statistics. These functions take linear time, and reorder their argument, which must not be
+// empty.
 #pragma once
 
 #include <algorithm>

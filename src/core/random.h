@@ -1,4 +1,4 @@
-// Random numbers that are the same on every platform.
+// Generates random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>

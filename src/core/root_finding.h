@@ -1,4 +1,4 @@
-// Root finding for functions of one variable.
+// Finds roots of functions of one variable.
 #pragma once
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Vectors whose width is the same on every processor, and the choice of instructions at run time. Tested by
+// Defines vectors whose width is the same on every processor, and chooses instructions at run time. Tested by
 // tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 

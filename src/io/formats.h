@@ -1,5 +1,5 @@
-// All known file formats: supported formats, and others that errors can name. A new format needs a source
-// file that defines the two functions declared here, and an entry in `formats`.
+// Lists all known file formats: supported formats, and others that errors can name. A new format needs a
+// source file that defines the two functions declared here, and an entry in `formats`.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The arrays that NumPy saves (NPY, versions 1 to 3), which are depth images or points.
+// Reads arrays that NumPy saves (NPY, versions 1 to 3). They are depth images or points.
 #pragma once
 
 #include <cstddef>

@@ -71,7 +71,7 @@ class ObjReader {
     return true;
   }
 
-  // Returns the line without its keyword. It is a name that may contain blanks.
+  // Returns the line without its keyword. The rest is a name that may contain blanks.
   std::string_view rest_of(std::string_view keyword) const {
     const std::string_view line = trim(before_comment(line_));
     return trim(line.substr(keyword.size()));

@@ -1,4 +1,4 @@
-// The textures of an OBJ file: materials are in files beside it, and refer to pictures.
+// Reads the textures of an OBJ file. Its materials are in files beside it, and refer to pictures.
 #pragma once
 
 #include <array>

@@ -33,7 +33,7 @@ struct PlyElement {
   std::size_t line = 0;  // line of its declaration
 };
 
-// Returns the smallest possible size of a binary row in bytes, which is that with empty lists.
+// Returns the smallest possible size of a binary row in bytes: its size if all lists are empty.
 std::size_t least_row_size(const PlyElement& element);
 
 // Returns whether any property is a list, so that rows differ in size.

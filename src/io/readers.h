@@ -1,4 +1,4 @@
-// The types and functions that the readers of all formats share.
+// Declares the types and functions that the readers of all formats share.
 #pragma once
 
 #include <cstddef>

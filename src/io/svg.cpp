@@ -28,7 +28,7 @@ class PathPen {
  public:
   PathPen(std::string_view data, CurvePolygons& out) : data_(data), out_(out) {}
 
-  // Returns no text, or a message about what was expected and found.
+  // Returns an empty text, or a message that says what was expected and what was found.
   std::string draw() {
     while (skip_space(), at_ < data_.size()) {
       if (std::isalpha(static_cast<unsigned char>(data_[at_])) != 0)

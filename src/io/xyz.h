@@ -1,4 +1,4 @@
-// The layout of text files with one point per line (XYZ, PTS, CSV).
+// Determines the layout of text files with one point per line (XYZ, PTS, CSV).
 #pragma once
 
 #include <array>
@@ -80,7 +80,7 @@ bool are_colours(const std::vector<std::vector<double>>& rows, std::size_t colum
 void find_normals_and_colours(const std::vector<std::vector<double>>& rows, std::size_t first,
                               XyzLayout& layout);
 
-// Returns what the columns are, such as "6 columns with normals".
+// Returns a description of the columns, such as "6 columns with normals".
 std::string columns_text(const XyzLayout& layout);
 
 // Returns up to 256 rows of numbers from the whole file, except rows with a different number of columns.
@@ -91,8 +91,9 @@ std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLay
 // layout.first_line. Errors: kind input if a comma could be a separator or a decimal comma.
 Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout);
 
-// Detects the layout: from the names of the columns if the file has any, else from the first line of data
-// (separator, number of columns) and from lines throughout the file (normals, colours).
+// Detects the layout: the separator and the number of columns from the first line of data, and the meaning of
+// the columns from their names. If the file has no names, lines from the whole file show which columns are
+// normals and colours.
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

@@ -55,7 +55,7 @@ struct BaseCircle {
   double radius, angle, sign;  // sign: 1 if the text is read counter-clockwise, -1 if clockwise
 
   // Returns the position of a point of the line: `along` is the distance of the point from the text's centre,
-  // and `letter` the distance of the centre of its letter from there.
+  // and `letter` the distance of the centre of its letter from the text's centre.
   Vec2 place(double along, double letter, double up, double read_radius) const {
     const double turn = angle + sign * letter / read_radius;
     const Vec2 outwards(std::cos(turn), std::sin(turn)),

@@ -1,4 +1,4 @@
-// The solids of the samples, and the distance functions that they consist of. Tested by
+// Defines the solids of the samples, and the distance functions that they consist of. Tested by
 // tests/samples/sample_test.cpp.
 #pragma once
 

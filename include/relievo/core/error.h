@@ -1,4 +1,4 @@
-// Errors as values. The library throws nothing and prints nothing.
+// Defines errors, which functions return as values. The library throws nothing and prints nothing.
 #pragma once
 
 #include <version>
@@ -34,7 +34,7 @@ struct Error {
   // The caller's name for the input or option, such as "scan.ply" or "height"; may be empty.
   std::string input;
   std::string place;     // "line 12", "byte 340", "vertex 7"; empty if the error concerns the whole input
-  std::string expected;  // one clause: what was expected and what was found instead
+  std::string expected;  // one clause that says what was expected and what was found instead
 
   // Returns the error as one line of text: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty
   // members are left out.

@@ -1,4 +1,4 @@
-// Basic types for all other headers.
+// Defines the basic types of all other headers.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,5 +1,5 @@
-// Multilevel B-splines: smooth functions of the plane, fitted to values at scattered sites. The sites are
-// fixed; the values differ from function to function. Source: Lee, Wolberg and Shin, "Scattered Data
+// Fits multilevel B-splines, which are smooth functions of the plane, to values at scattered sites. The sites
+// are fixed; the values differ from function to function. Source: Lee, Wolberg and Shin, "Scattered Data
 // Interpolation with Multilevel B-Splines", 1997.
 //
 // The functions are uniform cubic B-splines on lattices; the cells of a level are half as wide as those of

@@ -1,4 +1,4 @@
-// Delaunay triangulation in the view plane (stages 6 and 13), with exact predicates.
+// Computes Delaunay triangulations in the view plane (stages 6 and 13), with exact predicates.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 namespace relievo {
 
 // A Delaunay triangulation of given points. All triangles are counter-clockwise, together they cover the
-// convex hull, and no point is strictly inside a triangle's circumcircle. All of this holds exactly.
+// convex hull, and no point is strictly inside a triangle's circumcircle. These properties hold exactly, not
+// only up to rounding.
 struct Triangulation {
   std::vector<Triangle> triangles;
   // neighbours[t][i] is the triangle on the other side of the edge opposite to corner i of t; no_index on the

@@ -36,7 +36,7 @@ struct StreamedCloud {
   std::uint64_t input_points = 0;         // number of points in the file
   std::uint64_t ignored_faces = 0;        // number of faces in the file, which are not read
   std::uint64_t missing_points = 0;       // number of points that the file promises but does not contain
-  std::vector<std::string> remarks = {};  // messages about what was left out, as in CloudFile
+  std::vector<std::string> remarks = {};  // messages about what was left out, see CloudFile
 };
 
 // Returns whether stream_front() can read the file that begins with these bytes: LAS, binary PCD, or binary

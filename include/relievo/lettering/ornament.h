@@ -1,4 +1,4 @@
-// Texts, borders and drawings on the ground of a plate.
+// Defines texts, borders and drawings on the ground of a plate.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Height maps of a solid's front: grey levels for machines and pictures, or millimetres.
+// Makes height maps of a solid's front: grey levels for machines and pictures, or millimetres.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Shaded pictures of a finished body, from the front and obliquely, or from any direction, drawn on the CPU.
+// Draws shaded pictures of a finished body on the CPU: from the front and obliquely, or from any direction.
 #pragma once
 
 #include <limits>

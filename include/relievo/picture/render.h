@@ -1,5 +1,5 @@
-// Draws pictures of frames in milliseconds, for programs that show a relief while the user edits it, on the
-// CPU. For pictures of a finished solid see render_preview().
+// Draws pictures of frames on the CPU, in milliseconds, for programs that show a relief while the user edits
+// it. For pictures of a finished solid see render_preview().
 #pragma once
 
 #include <algorithm>
@@ -74,8 +74,8 @@ struct Shown {
   std::span<const float> tint = {};
 };
 
-// The size of a piece, and the offset of the middle of its relief from the middle of the piece, which is not
-// given for a piece that is bent around a wrap.
+// The size of a piece, and the offset of the middle of its relief from its own middle. A piece that is bent
+// around a wrap has no offset.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();

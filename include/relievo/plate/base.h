@@ -1,4 +1,4 @@
-// Bases: surfaces under a relief, given as heights above the plane of its plate.
+// Defines bases, which are surfaces under a relief, given as heights above the plane of its plate.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Outlines: the shapes of plates, seen from the front.
+// Computes outlines, which are the shapes of plates seen from the front.
 #pragma once
 
 #include <array>

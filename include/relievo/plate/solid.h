@@ -1,4 +1,4 @@
-// A relief as a closed body for milling or printing, in millimetres.
+// Makes a relief into a closed body for milling or printing, in millimetres.
 #pragma once
 
 #include <cstddef>

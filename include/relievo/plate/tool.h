@@ -1,4 +1,4 @@
-// Milling tools, the part of a front that they reach, and the surface that they leave.
+// Describes milling tools, and computes the part of a front that they reach and the surface that they leave.
 #pragma once
 
 #include <string>
@@ -41,9 +41,9 @@ double tool_profile(const Tool& tool, double distance_mm);
 // without material, where nothing obstructs the tool, and remains NaN. The tool's axis visits the samples,
 // and positions outside the image up to the tool's radius. The radius is limited to half the longer side of
 // the image; a V tool's flank is limited to the range of the heights. The result is exact at the samples.
-// Positions between samples are not visited, so the height at which a ball of radius R touches has an error
-// of up to step_mm^2 / (8 R) on gentle slopes, and up to half a step times the slope on walls. Takes about
-// 0.5 s for 4M samples and a radius of 15 samples on two cores.
+// Positions between samples are not visited. So the height at which a ball of radius R touches has an error
+// of up to step_mm^2 / (8 R) on gentle slopes. On walls the error is up to half a step times the slope. Takes
+// about 0.5 s for 4M samples and a radius of 15 samples on two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
 
 struct ToolReach {

@@ -1,4 +1,4 @@
-// Bodies around which a finished plate is bent, including its thickness.
+// Describes bodies around which a finished plate is bent, and computes the bent positions.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Measures of how much of its model a relief shows, and of its faults. docs/quality.md defines each measure
-// and gives its source.
+// Measures how much of its model a relief shows, and measures its faults. docs/quality.md defines each
+// measure and gives its source.
 #pragma once
 
 #include <array>

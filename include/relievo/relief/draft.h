@@ -23,11 +23,11 @@ struct DraftOptions {
   std::span<const double> base = {};
 };
 
-// The requested relief, as for make_by_method().
+// The requested relief; see make_by_method() for these values.
 struct DraftOrder {
   Method method = Method::layered;
   Shape shape;
-  double height = 0;   // as for make_by_method()
+  double height = 0;   // in units of the surface
   double unit_mm = 1;  // millimetres per unit of the height, for messages
 };
 

@@ -1,5 +1,5 @@
-// Frames: reliefs made from a prepared model in milliseconds, in single precision. ReliefModel makes final
-// reliefs in double precision.
+// Makes frames, which are reliefs of a prepared model, in milliseconds and single precision. ReliefModel
+// makes final reliefs in double precision.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Heights (stage 8): computes the surface that fits given slopes by our form of the paper's equation (9).
+// Computes heights (stage 8): the surface that fits given slopes by our form of the paper's equation (9).
 // src/paper/heights.h has the paper's own form.
 #pragma once
 

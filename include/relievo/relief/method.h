@@ -1,5 +1,6 @@
-// The methods for making a relief, their names, and the numbers of points that they use. To add a baseline,
-// add an enumerator, a declaration and a table entry here, and implement it in src/relief/baselines/.
+// Declares the methods for making a relief, their names, and the numbers of points that they use. To add a
+// baseline, add an enumerator, a declaration and a table entry here, and implement it in
+// src/relief/baselines/.
 #pragma once
 
 #include <array>

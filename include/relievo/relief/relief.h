@@ -1,5 +1,5 @@
-// Reliefs of a surface. A ReliefModel is prepared once and makes reliefs with many shapes (stages 7 to 12 and
-// 14).
+// Makes reliefs of a surface (stages 7 to 12 and 14). A ReliefModel is prepared once and makes reliefs with
+// many shapes.
 #pragma once
 
 #include <cstddef>
@@ -89,7 +89,7 @@ class ReliefModel {
   // Returns the step heights that Shape::planes adds in layered reliefs.
   const StepHeights& planes() const;
 
-  // Returns the models of a scene whose height Pose::height gives.
+  // Returns the models of a scene that have a Pose::height.
   const OwnHeights& own_heights() const;
 
   // Returns the correction that compresses the heights of layered reliefs.
@@ -103,12 +103,12 @@ class ReliefModel {
 
   // Returns the relief whose height, including detail, is `height`. Searches for the u of the compression
   // that gives this height. beta, gamma and the slope limit stay as requested, which is the intent of
-  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and depth jumps of at most their
-  // real depth supply the missing height; Shape::steps of the result is their share. In models of
-  // Method::paper, beta changes, too, if Shape::is_beta_free is set, and depth jumps supply nothing; see
-  // search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no relief
-  // has that height; the message states the largest possible height in millimetres, for `unit_mm` millimetres
-  // per unit. Kind cancelled.
+  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps, of at most
+  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. In
+  // models of Method::paper, beta changes, too, if Shape::is_beta_free is set, and there are no such steps;
+  // see search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no
+  // relief has that height; the message states the largest possible height in millimetres, for `unit_mm`
+  // millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

@@ -1,5 +1,5 @@
-// The parameters that shape a relief. All of them can change from frame to frame, because the prepared model
-// does not depend on them.
+// Defines the parameters that shape a relief. All of them can change from frame to frame, because the
+// prepared model does not depend on them.
 #pragma once
 
 #include <memory>

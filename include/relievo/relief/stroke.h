@@ -1,4 +1,4 @@
-// Strokes: local changes of a relief that users paint onto the model.
+// Defines strokes, which are local changes of a relief that users paint onto the model.
 #pragma once
 
 #include <array>

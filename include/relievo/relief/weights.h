@@ -1,6 +1,6 @@
-// Normal space compression: the share of each normal in the relief, by equations (5) to (7) of the paper. All
-// methods except Method::paper use it in the form of this header. src/paper/compression.h has the weights of
-// Method::paper, which follow the paper to the letter.
+// Computes normal space compression: the share of each normal in the relief, by equations (5) to (7) of the
+// paper. All methods except Method::paper use it in the form of this header. src/paper/compression.h has the
+// weights of Method::paper, which follow the paper to the letter.
 #pragma once
 
 #include <algorithm>

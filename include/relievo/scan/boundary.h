@@ -1,5 +1,5 @@
-// Boundary (stage 5): the triangles that belong to the relief, and the points where the relief meets the
-// base.
+// Finds the boundary (stage 5): the triangles that belong to the relief, and the points where the relief
+// meets the base.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Mean curvature of the surface through scattered points (stage 4).
+// Computes the mean curvature of the surface through scattered points (stage 4).
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Depth images from a depth camera, a renderer or a depth estimator, and their conversion into points.
+// Defines depth images from a depth camera, a renderer or a depth estimator, and converts them into points.
 #pragma once
 
 #include <array>
@@ -70,8 +70,9 @@ struct DepthOptions {
   // that they cover most of the image's border.
   Removal background = Removal::automatic;
   // Blur is a run of points between two surfaces that belong to neither surface. `drop` removes runs of at
-  // most 12 points. `automatic` does the same in images of depth cameras, keeps all points of height images,
-  // as their walls are part of the surface, and removes runs of at most 3 points in all other images.
+  // most 12 points. `automatic` does the same in images of depth cameras. It keeps all points of height
+  // images, because their walls are part of the surface. In all other images it removes runs of at most 3
+  // points.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this many points
 

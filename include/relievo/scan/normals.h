@@ -1,4 +1,4 @@
-// Normals of scattered points: estimates them and determines their signs.
+// Estimates the normals of scattered points and determines their signs.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// Heights of one surface at the points of another, for comparing reliefs of different points.
+// Interpolates the heights of one surface at the points of another, to compare reliefs of different points.
 #pragma once
 
 #include <span>

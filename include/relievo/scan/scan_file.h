@@ -1,4 +1,4 @@
-// The contents of a scan file.
+// Defines the contents of a scan file.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Sampling distance (stage 1): the spacing of points, locally and overall.
+// Measures the sampling distance (stage 1), which is the spacing of points, locally and overall.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// The view (stage 2): the side of the model that the relief shows.
+// Defines the view (stage 2), which is the side of the model that the relief shows.
 #pragma once
 
 #include <array>

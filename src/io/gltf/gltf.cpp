@@ -187,8 +187,8 @@ class GltfReader {
     return {};
   }
 
-  // Returns the transforms of the node's mesh: the transform of the node, or those of the copies by
-  // EXT_mesh_gpu_instancing.
+  // Returns the transforms of the node's mesh: the transform of the node or, with EXT_mesh_gpu_instancing,
+  // the transforms of its copies.
   Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
                                            const std::string& place) {
     const Json* attributes = &node;

@@ -1,4 +1,5 @@
-// The base colours of a glTF file's materials: textures, sampled at the vertices, and plain colours.
+// Determines the base colours of a glTF file's materials: textures, sampled at the vertices, and plain
+// colours.
 #pragma once
 
 #include <map>

@@ -1,4 +1,5 @@
-// Decodes version 2 of the items (version 1 of wave packets), which LASzip has written since 2011.
+// Decodes the parts of points ("items") as LASzip has written them since 2011: version 2, or version 1 of
+// wave packets.
 #include "io/las/point_items.h"
 
 #include <algorithm>
@@ -235,7 +236,7 @@ LayeredPoint::LayeredPoint(const PointLayers& layers, const char* first, const c
   colour_channels_[channel_] = std::make_unique<ColourChannel>(ColourChannel{colour_, {}});
 }
 
-// Decodes what changes relative to the previous point, and switches to the point's scanner.
+// Decodes which values differ from those of the previous point, and switches to the point's scanner.
 std::uint32_t LayeredPoint::decode_changes() {
   Channel& last = *channels_[channel_];
   const std::size_t context = (last.return_number == 1 ? 1U : 0U) +

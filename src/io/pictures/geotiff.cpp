@@ -1,4 +1,4 @@
-// Tags and keys of OGC GeoTIFF 1.1.
+// Reads tags and keys of OGC GeoTIFF 1.1.
 #include "io/pictures/geotiff.h"
 
 #include <algorithm>

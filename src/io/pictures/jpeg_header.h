@@ -1,4 +1,4 @@
-// The information in a JPEG before its pixels.
+// Reads the information that precedes the pixels in a JPEG.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// The formats of depth images, and their readers.
+// Declares the formats of depth images, and their readers.
 #pragma once
 
 #include <array>
