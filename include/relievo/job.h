@@ -107,9 +107,8 @@ class LiveModel {
   std::unique_ptr<State> state_;
 };
 
-// Returns the live model of a job. Chooses the view if the options do not give one, samples the points that
-// are visible in the view, and prepares their model. Errors: those of sample_for_view() and of prepare() for
-// a cloud.
+// Returns the live model of a job. Chooses the view if the options give none, samples the points that it
+// shows, and prepares their model. Errors: those of sample_for_view() and of prepare() for a cloud.
 Result<LiveModel> prepare(const Job& job, Progress* progress = nullptr);
 
 }  // namespace relievo

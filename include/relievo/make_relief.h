@@ -48,8 +48,7 @@ struct ScanReport {
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
   Method method = Method::paper;  // without a shape, alpha, beta, gamma and u have no meaning
-  // If beta is 0 or there is a tone curve, alpha has no effect, and this is NaN; u then determines the
-  // height.
+  // NaN if beta is 0 or there is a tone curve, because then u determines the height, and alpha has no effect.
   double alpha = 0;
   double beta = 0, gamma = 0;
   double u = 0;      // alpha^-beta, see Compression
@@ -62,8 +61,8 @@ struct ReliefReport : ScanReport {
 
   // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
   // exact in x and y. In z it keeps the uncompressed depth of the model, whose lowest visible point is on the
-  // ground. With a curved base, that is the ground in the middle of the plate. For a mirrored form `rotation`
-  // includes the reflection.
+  // ground (with a curved base, on the ground in the plate's middle). For a mirrored form `rotation` includes
+  // the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
@@ -118,8 +117,8 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
                                   Progress* progress = nullptr);
 
 // Returns an error of kind option if the model cannot make the relief of the options: it was not prepared for
-// their method (ReliefModel::serves()); dark lines are to be lowered, but it has no colours; a light or the
-// attention is given, but it has only control points; or a stroke protects, but a model of its scene has its
+// their method (ReliefModel::serves()); dark lines are to be lowered, but it has no colours; light or
+// attention is given, but it has only control points; or a stroke protects, but a model of its scene has an
 // own height.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
@@ -135,8 +134,7 @@ Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Pro
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape for the options. If the relief must have a requested or default height, the search for
-// that height starts with this shape. The depth of dark lines is converted from millimetres to units of
-// `mm_per_unit` millimetres.
+// that height starts with this shape. `mm_per_unit` converts the depth of dark lines from mm.
 Shape shape_of(const ReliefOptions& options, double mm_per_unit = 1);
 
 // Returns the options with width_mm set. A given width stays. If only the size of the plate is given, the

@@ -1,6 +1,6 @@
-// Declares the table of options, in which a single entry describes everything about an option. The command
-// line, projects, the studio with its page, batch, Python, npm and the documents have no lists of their own;
-// they use option_table().
+// Declares the table of options, in which one entry describes all of an option. The command line, projects,
+// the studio with its page, batch, Python, npm and the documents have no lists of their own; they use
+// option_table().
 #pragma once
 
 #include <array>
@@ -45,14 +45,12 @@ using OptionValue = std::variant<std::string, double>;
 // Values by option name. Missing options have their defaults.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// Functions that read an option's value, and that return its effective number, which is the given value or
-// the default.
+// Functions that read an option's value, and return its effective number (the given one or the default).
 struct OptionTargets;
 struct OptionAccess {
   // Reads a value of the option's type into `to`. Error::input may be empty; then the caller sets it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the effective number of the option; nothing if it has none. The pointer is null for options that
-  // are texts.
+  // Returns the option's effective number; nothing if it has none. Null for options that are texts.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
@@ -93,9 +91,8 @@ std::string_view expected_type(const OptionRow& option);
 Result<void> check_range(const OptionRow& option, double number);
 
 // Reads and checks the values. Returns the options. Options of depth images are ignored, see parse_depth(). A
-// base of kind image is returned without its height map, which the caller reads. Errors: kind option, naming
-// the option, for unknown names and for values of the wrong type; those of check() and of the functions that
-// parse texts.
+// base of kind image gets its height map from the caller. Errors: kind option, naming the option, for unknown
+// names and for values of the wrong type; those of check() and of the functions that parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
 // Returns those of the values that are options of depth images, except the camera. Other options are ignored.

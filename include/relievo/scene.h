@@ -93,8 +93,8 @@ View on_side(View view, const ViewGuess& side);
 View chosen_view(const Scene& scene, const View& view);
 
 // Returns the default number of visible points: 300,000. For a scene of only meshes it is 15 per triangle if
-// that is less, because meshes have no finer detail than their triangles. It is never less than 100,000, so
-// that outlines are smooth.
+// that is less, because meshes have no finer detail than their triangles. The least is 100,000, for smooth
+// outlines.
 double usual_points(const Scene& scene);
 
 // Returns the points of all placed models, in the scene's axes. `points` is the wanted number of points, by

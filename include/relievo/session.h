@@ -41,8 +41,7 @@ struct Preparation {
   std::function<View()> chosen_view = {};
 
   // If set, it is called for coarse reliefs, and returns the points of all sides. If not set, coarse reliefs
-  // use the result of points(). Clouds need no such function; meshes do, because points() samples them for a
-  // single view.
+  // use the result of points(). Meshes need all_sides, because points() samples them for a single view.
   std::function<Points(Progress&)> all_sides = {};
 
   // Whether to make a coarse relief of this view if there is no model yet. It is made as soon as the points
@@ -66,9 +65,8 @@ class Session {
   Session();
   ~Session();  // cancels the running preparation and waits for its end
 
-  // Prepares a model in the background. A newer call cancels the preparation of an older call, whose end is
-  // then not reported. The previous model stays until the new one is ready, or for good if the preparation
-  // fails.
+  // Prepares a model in the background. A newer call cancels an older preparation, whose end is then not
+  // reported. The previous model stays until the new one is ready, or for good if the preparation fails.
   void open(Preparation preparation);
 
   // Cancels the preparation that is running or waiting, if any. status() reports the cancellation
@@ -80,9 +78,9 @@ class Session {
   // view changes; open() prepares the final view. It is made in the calling thread, in a few hundredths of a
   // second. The first call for a cropped cloud or a mesh takes longer, because it also measures the points of
   // all sides. A newer call of turn() and a call of cancel() cancel this call. turn() does not cancel a
-  // preparation, and open() does not cancel turn(), because a call may come late, when the final view is
-  // already being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows
-  // no area; kind cancelled.
+  // preparation, and open() does not cancel turn(), because it may be called when the final view is already
+  // being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area;
+  // kind cancelled.
   Result<ShownModel> turn(const View& view);
 
   SessionStatus status() const;

@@ -15,8 +15,7 @@ LargeArray make_large_array(std::size_t floats) {
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   void* array = std::aligned_alloc(alignment, rounded);
   if (array == nullptr) {
-    // The program that uses the library may have set a handler that ends it cleanly; operator new calls that
-    // handler, too.
+    // The program may have set a handler that ends it cleanly. operator new calls that handler, too.
     if (const std::new_handler handler = std::get_new_handler()) handler();
     throw std::bad_alloc();
   }

@@ -70,8 +70,7 @@ struct Job {
 };
 
 // The worker threads, which sleep between jobs and process one job at a time. While the workers are busy,
-// another caller processes its own job alone. So the job for a picture need not wait for a job that takes
-// half a second.
+// another caller processes its own job alone. So a picture need not wait for a job of half a second.
 class Pool {
  public:
   static Pool& instance() {

@@ -67,10 +67,8 @@ bool is_text(const Source& source);
 //   points is allowed: more points may follow, but not fewer, and in PTS another number with its points.
 //   Comments (#, //) are allowed. Numbers have a decimal point, or a decimal comma if semicolons separate
 //   them; they may be in quotation marks. If two columns of integers precede three of fractions, they are a
-//   scanner's rows and columns, and the next three are x y z. A first column that numbers the points is
-//   skipped.
-// - PTX: all scans, transformed by their matrices. Points at the origin of their scanner count as not
-// measured.
+//   scanner's rows and columns, and the next three are x y z. A first column of point numbers is skipped.
+// - PTX: all scans, transformed by their matrices. Points at their scanner's origin count as not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
@@ -100,8 +98,7 @@ struct Format {
   Content content;
   bool (*is_format)(const Source&);
   Result<RawCloud> (*read)(const Source&);
-  // Finds the rows for reading the file block by block; null if files of this format are always read as a
-  // whole.
+  // Finds the rows for reading block by block; null if files are always read as a whole.
   Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;
 };
 
@@ -130,8 +127,7 @@ struct ForeignFormat {
   std::size_t at = 0;     // position of the mark in the content
 };
 
-// Formats that are recognised by the extension of the name, because the content of most of them shows only
-// that it is an archive.
+// Formats that are recognised by the name's extension, because most of them look like any archive.
 inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},

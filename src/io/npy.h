@@ -37,7 +37,6 @@ struct NpyArray {
   std::size_t place(std::size_t row, std::size_t column) const;
 };
 
-// Returns whether the content begins like an array of NumPy.
 bool has_npy_mark(const Source& source);
 
 // Returns the array's header. Errors: kind input for a truncated header, for a type that is not a real

@@ -91,7 +91,6 @@ Cloud sized_cloud(const Records& records, std::size_t points);
 void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                  std::size_t begin);
 
-// Returns the number of rows that are left out.
 std::size_t count_left_out(const Records& records, const char* first, std::size_t rows);
 
 // Decodes all rows, concurrently. `first` points to the first row.

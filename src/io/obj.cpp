@@ -90,9 +90,8 @@ class ObjReader {
     return {};
   }
 
-  // Reads a vertex, and the colour that may follow its coordinates. A single number after the coordinates is
-  // a weight. If four numbers follow, the first is a weight if it is 1 in all vertices; otherwise the last is
-  // an opacity.
+  // Reads a vertex, and the colour that may follow its coordinates. A single number is a weight. If four
+  // numbers follow, the first is a weight if it is 1 in all vertices; otherwise the last is an opacity.
   Result<void> take_vertex(Words& words) {
     RELIEVO_CHECK(take_vector(words, points_));
     std::array<float, 4> values = {};
@@ -107,8 +106,8 @@ class ObjReader {
     return {};
   }
 
-  // Reads colours that ZBrush writes as comments: after '#MRGB ' each vertex has eight hexadecimal digits;
-  // the first two are a mask.
+  // Reads colours that ZBrush writes as comments: after '#MRGB ' two hexadecimal digits each for a mask, red,
+  // green and blue of every vertex.
   void take_painted(std::string_view line) {
     constexpr std::string_view keyword = "#MRGB ";
     if (!line.starts_with(keyword)) return;
@@ -232,8 +231,7 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of the text in line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  // Colours of vertices: those after the coordinates, those after the coordinates and a weight of 1, and
-  // those in comments.
+  // Colours of vertices: after the coordinates, after the coordinates and a weight of 1, and in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // all faces

@@ -10,8 +10,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns the bytes of a file in the folder of the OBJ; nothing if the file cannot be read or is not in that
-// folder.
+// Returns a file in the folder of the OBJ; nothing if the file cannot be read or is not in that folder.
 std::optional<std::string> file_beside(const Source& source, std::string name) {
   std::ranges::replace(name, '\\', '/');
   if (!source.beside || name.empty() || name.starts_with('/') || name.contains("..") || name.contains(':'))

@@ -15,7 +15,6 @@
 namespace relievo::io {
 namespace {
 
-// The encodings of the points in a PCD file.
 enum class PcdData { ascii, binary, compressed };
 
 struct PcdHeader {

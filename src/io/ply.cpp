@@ -48,8 +48,7 @@ void take_splat(const PlyElement& vertex, VertexColumns& columns) {
   std::ranges::transform(harmonic_names, places.begin(),
                          [&](auto name) { return find_property(vertex, name); });
   const std::span splat = std::span(columns.is_there).subspan(9);
-  // Splats have opacity, three scales and a rotation, from column 9 on. Flat splats have no scale_2, which is
-  // column 12.
+  // Splats have opacity, three scales and a rotation, from column 9 on. Flat splats lack scale_2, column 12.
   const bool is_splat =
       std::ranges::count(splat, false) <= (columns.is_there[12] ? 0 : 1) && !has_lists(vertex) &&
       std::ranges::all_of(places, [&](std::size_t place) { return is_number(vertex, place); });

@@ -97,8 +97,7 @@ Result<PlyContent> read_binary_body(const PlyBody& body);
 // Returns the layout of vertices without lists as records; their offset is 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// Returns a column for a component of colours: its type, and its scale to [0, 255]. The caller sets its
-// offset.
+// Returns a colour's column: its type, and its scale to [0, 255]. The caller sets its offset.
 RecordColumn colour_column(const VertexColumns& columns, NumberType type);
 
 // The list property with the vertices of a face.

@@ -8,14 +8,14 @@
 
 namespace relievo::io {
 
-// The logarithm of the third scale, 0, of splats that are flat discs. Files have only two scales of such
-// splats.
+// The logarithm of the third scale, 0, of splats that are flat discs. Files state only their other two
+// scales.
 constexpr double no_depth = -std::numeric_limits<double>::infinity();
 
 // Returns the unit vector along which a splat is thinnest. Its sign is arbitrary. `log_scales` are the
 // logarithms of its scales, `rotation` is a quaternion w, x, y, z of any length. The result is zero if the
-// two smallest scales are nearly equal, because the direction is then arbitrary, and for a rotation that is
-// zero or not finite.
+// two smallest scales are nearly equal, which makes the direction arbitrary, or if the rotation is zero or
+// not finite.
 Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation);
 
 }  // namespace relievo::io

@@ -31,7 +31,6 @@ class Rows {
                               bytes_.size() / records_.stride);
   }
 
-  // Decodes `count` rows from row `first` on.
   Result<void> read(std::uint64_t first, std::size_t count, Cloud& to) {
     bytes_.resize(count * records_.stride);
     const auto read = source_.read(records_.offset + first * records_.stride, bytes_);

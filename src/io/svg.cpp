@@ -111,8 +111,7 @@ class PathPen {
     }
   }
 
-  // If a line follows a closed outline without a move, it begins a new outline at the starting point of the
-  // closed one.
+  // A line after a closed outline, without a move, begins a new outline at the same starting point.
   void begin() {
     if (last_ != 'M') out_.continue_at(pen_);
   }

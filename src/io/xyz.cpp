@@ -83,8 +83,7 @@ class XyzReader {
   SourceLines lines_;
   std::vector<std::size_t> slots_;  // per column: index in values_; most_wanted if the column is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
-  // promised_ is the number of points up to the end of this scan, and before_block_ the number before this
-  // scan.
+  // Numbers of points: promised_ up to the end of this scan, before_block_ up to its beginning.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
   std::vector<Vec3f> colours_;  // as written in the file

@@ -61,9 +61,8 @@ bool has_degrees(const ColumnNames& names);
 
 // Set the columns of coordinates, normals and colours. take_columns() finds the columns by their names.
 // find_columns() finds normals and colours by their values in lines from the whole file. Its coordinates are
-// the first three columns; but if the lines begin with a scanner's row and column, with the point's number,
-// or with a name (`has_name` is set, and no sampled line begins with a number), they are the three columns
-// after these.
+// the first three columns after a scanner's row and column, a point's number or a name. There is a name if
+// `has_name` is set and no sampled line begins with a number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 

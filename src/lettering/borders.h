@@ -16,8 +16,7 @@ struct BorderRow {
   double count = 0;  // number of beads or strands; 0: as many as fit well
 };
 
-// Returns the outer and the inner edge of a line with the given width. The outer edge is `before_mm` inside
-// the polygon.
+// Returns both edges of a line with the given width. The outer edge is `before_mm` inside the polygon.
 Outlines line_outlines(std::span<const Vec2> polygon, double before_mm, double width_mm);
 
 // Returns discs whose diameter is the width of the row.

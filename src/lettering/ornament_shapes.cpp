@@ -76,7 +76,6 @@ std::vector<Vec2> finely_divided(const std::vector<Vec2>& outline, double step) 
   return fine;
 }
 
-// Places the clusters of a text.
 class TextPlacer {
  public:
   TextPlacer(const Ornament& ornament, const OrnamentFrame& frame, ShapedLine line, double size)

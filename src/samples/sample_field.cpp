@@ -65,8 +65,7 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 }
 
 Cells cover(const Solid& solid) {
-  // The cells divide the longest side of the box by 256. They are smaller than the distance between any two
-  // sheets of a sample's surface.
+  // 256 cells along the longest side are smaller than the distance between any two sheets of a sample.
   const int levels = 8;
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level)

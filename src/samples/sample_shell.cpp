@@ -23,8 +23,7 @@ double rib_phase(const Whorl& w) {
   return ribs_per_turn * w.angle + sickle;
 }
 
-// The cosine and sine of a phase. Sums of phases, and so multiples of a phase, need only multiplications and
-// additions.
+// The cosine and sine of a phase. Those of sums, and so of multiples, need no trigonometric function.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }

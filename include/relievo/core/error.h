@@ -48,8 +48,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return errors of kind input, option, geometry and cancelled. A function that returns a Result can return
-// them as they are.
+// Return errors of kind input, option, geometry and cancelled, as a function with a Result may return them.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }

@@ -9,8 +9,7 @@
 namespace relievo {
 
 // A Delaunay triangulation of given points. All triangles are counter-clockwise, together they cover the
-// convex hull, and no point is strictly inside a triangle's circumcircle. These properties hold exactly, not
-// only up to rounding.
+// convex hull, and no point is strictly inside a triangle's circumcircle. These properties hold exactly.
 struct Triangulation {
   std::vector<Triangle> triangles;
   // neighbours[t][i] is the triangle on the other side of the edge opposite to corner i of t; no_index on the

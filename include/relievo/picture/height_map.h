@@ -58,8 +58,7 @@ struct HeightsMm {
 HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options);
 
 // Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels; heights
-// below the zero have the grey level of the zero. If the range is empty, all pixels have the grey level of
-// the zero.
+// below the zero have the zero's grey level. If the range is empty, all pixels have that level.
 HeightMap grey_levels(const HeightsMm& heights, int bits = 16);
 
 // Returns the image of the map with 8 bits per grey level.

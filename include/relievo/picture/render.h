@@ -20,8 +20,7 @@ namespace relievo {
 
 struct Picture {
   Image8 image;  // 4 channels
-  // The scale of the plate's plane in the front view. In pictures of CloudRenderer, it is the number of
-  // pixels per unit of the scan.
+  // The scale of the plate's plane in the front view. CloudRenderer writes the pixels per unit of the scan.
   double pixels_per_mm = 1;
 };
 

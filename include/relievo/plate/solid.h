@@ -66,8 +66,7 @@ struct PlateOptions {
   std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
-  // make_plate() expects a front that is already mirrored or inverted, see forms.h. It applies these two
-  // members to the ornaments.
+  // make_plate() expects a front that is mirrored or inverted already, and does the same to the ornaments.
   bool is_mirrored = false;  // whether left and right are swapped
   bool is_die = false;       // whether what is raised in the relief is sunk, and vice versa
 

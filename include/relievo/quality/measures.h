@@ -1,5 +1,4 @@
-// Measures how much of its model a relief shows, and measures its faults. docs/quality.md defines each
-// measure and gives its source.
+// Measures how much of its model a relief shows, and its faults. docs/quality.md defines the measures.
 #pragma once
 
 #include <array>

@@ -15,8 +15,7 @@ namespace relievo {
 // Models of this kind predict only poorly where people look, see docs/method.md.
 std::vector<float> attention(const Surface& surface);
 
-// A level is the attention minus its mean, rounded to steps of 1 / attention_steps and counted from -1: level
-// 0 is -1.
+// A level is the attention minus its mean, in steps of 1 / attention_steps from -1, which is level 0.
 inline constexpr int attention_steps = 256, attention_levels = 2 * attention_steps + 1;
 
 // Returns the level of each value of an attention.

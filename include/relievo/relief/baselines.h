@@ -1,7 +1,6 @@
-// Makes reliefs by baselines, which are published methods of other authors that users can choose. Each
-// follows its paper, and uses the same visible points, normals and height system as layered reliefs, with
-// fixed parameters that gave good results for our scans. baseline_grid.h compares these and other baselines
-// at their best.
+// Makes reliefs by baselines: published methods of other authors that users can choose. Each follows its
+// paper, and uses the same visible points, normals and height system as layered reliefs, with fixed
+// parameters that suit our scans. baseline_grid.h compares these and other baselines at their best.
 #pragma once
 
 #include <vector>

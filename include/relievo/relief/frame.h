@@ -69,8 +69,7 @@ class FrameMaker {
   bool make_ahead(const FrameOptions& options, Frame& frame);
 
   // Writes a gain for each point of the last frame: the derivative of the relief's slope with respect to the
-  // x and y of the scan's normal. Gains are for normals of detail finer than the points, see SurfaceDetail in
-  // render.h.
+  // x and y of the scan's normal. Gains are for detail that is finer than the points, see SurfaceDetail.
   void write_gains(std::vector<float>& gains) const;
 
   // Returns the number of bytes of memory in use, without the model.

@@ -41,9 +41,8 @@ class HeightSystem {
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Returns the matrix that gives the right-hand side from the slopes. It has an entry for every pair of
-  // neighbours and for every diagonal element. Other matrices over the same points reuse its sparsity
-  // pattern.
+  // Returns the matrix that gives the right-hand side from the slopes. It has entries for pairs of neighbours
+  // and on the diagonal. Other matrices over the same points reuse its sparsity pattern.
   const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. The solution is

@@ -40,8 +40,7 @@ struct Compression {
   double alpha() const;
 };
 
-// A list of strokes that several shapes may share; null if there are none. Two lists compare equal if their
-// strokes are equal.
+// A list of strokes that several shapes may share; null if there are none. Compares the strokes themselves.
 struct SharedStrokes {
   std::shared_ptr<const std::vector<Stroke>> list = nullptr;
 
@@ -64,8 +63,7 @@ struct Shape {
   // members are used only by the layered style.
   std::optional<double> height_share = {};
   bool is_corrected = true;  // whether HeightCorrection compresses the heights
-  // The least step by which a part stands above the surface behind it and above the base, as a share of the
-  // height, [0, 0.3].
+  // Least step of a part above the surface behind it and above the base, as a share of the height, [0, 0.3].
   double planes = 0;
   // The light for which slopes are chosen; only for exact models.
   std::optional<ReliefLight> light = {};

@@ -22,8 +22,7 @@ struct SubspaceOptions {
   double max_slope = 4;  // slope limit of the reference heights, see Shape
 };
 
-// Returns z_ref: the heights of all points from equation (9) with w_k = 1. `system` is the system of all
-// points.
+// Returns z_ref: the heights of all points from (9) with w_k = 1. `system` is the system of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
 // Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
@@ -93,8 +92,7 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + common * overall, where `common` is the same for all control
-  // points.
+  // The ratio of a control point is z_c * own + common * overall; `common` is the same for all of them.
   struct RatioTerm {
     float own = 0, overall = 0;
   };

@@ -53,10 +53,9 @@ struct SlopeInput {
       {};  // levels_of() the attention; empty if the shape has no attention
 };
 
-// Writes the target slope of every point. For Style::paper_weights the slope is compressed_slope() with w =
-// w_k w_b. For the layered style it is layered_slope() with layer_weights(shape). The layers are also
-// multiplied by w_b and by the factor of the saturation. If the shape has a light, the slopes are then
-// adapted to it.
+// Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
+// For the layered style it is layered_slope() with layer_weights(shape). Then the layers are also multiplied
+// by w_b and by the factor of the saturation, and the slopes are adapted to the shape's light.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Return the layer weights of a layered shape: the first function for points of mean attention, the second
@@ -64,9 +63,8 @@ void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> sl
 LayerWeights layer_weights(const Shape& shape);
 LayerWeights layer_weights(const Shape& shape, double more_attention);
 
-// Separate the saturation from a compression c. In the layered style, saturation or tone curve multiply the
-// layers by saturation_scale(c) times w_k of saturation_alone(c). This factor is 1 everywhere for saturation
-// 0.
+// Separate the saturation from a compression c. They multiply the layers of the layered style by
+// saturation_scale(c) times w_k of saturation_alone(c), which is 1 everywhere for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

@@ -28,8 +28,7 @@ struct Cloud {
   std::vector<OutlineSegment> outlines = {};
   // Whether no point hides another point from a viewer on the +Z side, as in a depth image.
   bool is_height_field = false;
-  // For each point: Pose::height of the point's model in the scene, or 0 if its model has none. Empty if no
-  // model has one.
+  // For each point: Pose::height of its model in the scene, or 0 without one. Empty if no model has one.
   std::vector<float> own_heights = {};
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
@@ -47,9 +46,9 @@ struct Cloud {
 Box bounds(const Cloud& cloud);
 
 // Returns the indices, ascending, of points that cannot belong to the model: their distance from the middle
-// is more than 20 times the distance within which 90 % of the points are. The middle is the median of each
-// coordinate. A single outlier, for example at the origin of a georeferenced scan, would make the model tiny
-// within its own box.
+// (the median of each coordinate) is more than 20 times the distance within which 90 % of the points are. A
+// single outlier, for example at the origin of a georeferenced scan, would make the model tiny within its own
+// box.
 std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any

@@ -71,8 +71,7 @@ struct DepthOptions {
   Removal background = Removal::automatic;
   // Blur is a run of points between two surfaces that belong to neither surface. `drop` removes runs of at
   // most 12 points. `automatic` does the same in images of depth cameras. It keeps all points of height
-  // images, because their walls are part of the surface. In all other images it removes runs of at most 3
-  // points.
+  // images, because their walls are part of the surface. In other images it removes runs of up to 3.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this many points
 
@@ -114,8 +113,8 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
 
 // Returns a picture as flat points with grey colours for a lithophane: one point per pixel or block of
 // pixels, and black points along the outline of the picture. The brightest value is white, the darkest black;
-// missing values are white. Uses only the option `points`. Errors: those of check(); kind geometry if all
-// values are equal.
+// missing values are white. Only `points` is used. Errors: those of check(); kind geometry if all values are
+// equal.
 Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& options);
 
 }  // namespace relievo

@@ -15,8 +15,8 @@ Vec3f unit_normal(const Vec3& n);
 
 // Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
 // (principal component analysis). If the cloud has axes, the normal also fits the axes of these neighbours.
-// Points and axes are weighted: those that scatter less there have more influence. The sign is arbitrary
-// until turn_to_viewer(). Does nothing to a cloud of fewer than 3 points. Once the progress is cancelled, the
+// Points or axes, whichever scatter less there, have more influence. The sign is arbitrary until
+// turn_to_viewer(). Does nothing to a cloud of fewer than 3 points. Once the progress is cancelled, the
 // remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 

@@ -38,8 +38,7 @@ struct View {
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // Whether the surface is found by the rules of Nie et al. alone, for Method::paper (src/paper/surface.h).
   bool is_paper = false;
-  // Whether the view is to be rotated to the best side as soon as the model is known, see chosen_view() in
-  // scene.h.
+  // Whether to rotate the view to the best side when the model is known, see chosen_view() in scene.h.
   bool is_best = false;
 
   bool operator==(const View&) const = default;
@@ -84,9 +83,8 @@ Cloud cropped(const Cloud& cloud, const View& view);
 // box in the model's axes.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// A side of a model, with the names that parse_view() reads, and its score as the view of a relief. The score
-// is the sum of the normal differences between neighbouring cells of a coarse image, except across depth
-// jumps, times a weight.
+// A side of a model, named as for parse_view(), and its score as a view. The score is the sum of the normal
+// differences between neighbouring cells of a coarse image, except across depth jumps, times a weight.
 struct ViewGuess {
   std::string name, up;
   double score = 0;

@@ -27,8 +27,7 @@ struct Layout {
   std::optional<std::uint16_t> alpha;  // index of the channel of opacity
 };
 
-// Returns the first of the extra channels that the file declares as opacity. Extra channels come after all
-// other channels.
+// Returns the first extra channel that the file declares as opacity. Extra channels come after all others.
 std::optional<std::uint16_t> alpha_of(TIFF* tiff, std::uint16_t channels) {
   std::uint16_t count = 0;
   const std::uint16_t* kinds = nullptr;

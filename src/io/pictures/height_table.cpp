@@ -69,8 +69,7 @@ std::optional<XyzLayout> find_table(const Source& source) {
   return layout && is_table(source, *layout) ? layout : std::nullopt;
 }
 
-// Appends a line of the table. A field that is not a number is a missing height, and so is an empty last
-// field.
+// Appends a line of the table. A field that is not a number is missing, and so is an empty last field.
 void take_row(std::string_view line, const XyzLayout& layout, std::vector<float>& values) {
   const std::size_t before = values.size();
   Fields fields(line, layout.separator);
