@@ -118,8 +118,8 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
 
 // Returns an error of kind option if the model cannot make the relief of the options: it was not prepared for
 // their method (ReliefModel::serves()); dark lines are to be lowered, but it has no colours; light or
-// attention is given, but it has only control points; or a stroke protects, but a model of its scene has an
-// own height.
+// attention is given, but it has only control points; or a stroke protects, but one model of its scene has
+// its own height.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
 // Returns an error of kind option if, for a relief of that height, the bevel of the options' rim is closer to

@@ -1,6 +1,6 @@
-// Declares the table of options, in which one entry describes all of an option. The command line, projects,
-// the studio with its page, batch, Python, npm and the documents have no lists of their own; they use
-// option_table().
+// Declares the table of options, in which a single entry describes everything about an option. The command
+// line, projects, the studio with its page, batch, Python, npm and the documents have no lists of their own;
+// they use option_table().
 #pragma once
 
 #include <array>

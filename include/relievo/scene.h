@@ -93,7 +93,7 @@ View on_side(View view, const ViewGuess& side);
 View chosen_view(const Scene& scene, const View& view);
 
 // Returns the default number of visible points: 300,000. For a scene of only meshes it is 15 per triangle if
-// that is less, because meshes have no finer detail than their triangles. The least is 100,000, for smooth
+// that is less, because meshes have no finer detail than their triangles. It is at least 100,000, for smooth
 // outlines.
 double usual_points(const Scene& scene);
 

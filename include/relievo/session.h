@@ -78,9 +78,9 @@ class Session {
   // view changes; open() prepares the final view. It is made in the calling thread, in a few hundredths of a
   // second. The first call for a cropped cloud or a mesh takes longer, because it also measures the points of
   // all sides. A newer call of turn() and a call of cancel() cancel this call. turn() does not cancel a
-  // preparation, and open() does not cancel turn(), because it may be called when the final view is already
-  // being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area;
-  // kind cancelled.
+  // preparation, and open() does not cancel turn(), because a call may come late, when the final view is
+  // already being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows
+  // no area; kind cancelled.
   Result<ShownModel> turn(const View& view);
 
   SessionStatus status() const;

@@ -127,7 +127,7 @@ struct ForeignFormat {
   std::size_t at = 0;     // position of the mark in the content
 };
 
-// Formats that are recognised by the name's extension, because most of them look like any archive.
+// Formats that are recognised by the name's extension, because the content of most is just an archive.
 inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},

@@ -90,8 +90,9 @@ class ObjReader {
     return {};
   }
 
-  // Reads a vertex, and the colour that may follow its coordinates. A single number is a weight. If four
-  // numbers follow, the first is a weight if it is 1 in all vertices; otherwise the last is an opacity.
+  // Reads a vertex, and the colour that may follow its coordinates. A single number after them is a weight.
+  // If four numbers follow, the first is a weight if it is 1 in all vertices; otherwise the last is an
+  // opacity.
   Result<void> take_vertex(Words& words) {
     RELIEVO_CHECK(take_vector(words, points_));
     std::array<float, 4> values = {};

@@ -61,8 +61,8 @@ bool has_degrees(const ColumnNames& names);
 
 // Set the columns of coordinates, normals and colours. take_columns() finds the columns by their names.
 // find_columns() finds normals and colours by their values in lines from the whole file. Its coordinates are
-// the first three columns after a scanner's row and column, a point's number or a name. There is a name if
-// `has_name` is set and no sampled line begins with a number.
+// the first three columns, or the three after a scanner's row and column, a point's number or a name. There
+// can be a name only if `has_name` is set and no sampled line begins with a number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 

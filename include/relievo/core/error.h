@@ -48,7 +48,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return errors of kind input, option, geometry and cancelled, as a function with a Result may return them.
+// Return errors of kind input, option, geometry and cancelled, which any function with a Result can return.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }

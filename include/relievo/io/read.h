@@ -40,9 +40,9 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 //
 // Errors (kind input) state the line or the byte and what was expected there, or name an unsupported format,
 // such as "a PTX file". It is an error if no point has finite coordinates. It is also an error if a header
-// promises more than the bytes contain; no memory is allocated for the missing part. Only an incomplete LAS
-// file is read to its end. Reading always terminates: there is no recursion, and the time is linear in the
-// number of bytes, except that concave polygons of at most 10,000 corners take quadratic time.
+// promises more than the bytes contain; no memory is allocated for the missing part. LAS is an exception: an
+// incomplete file is read to its end. Reading always terminates: there is no recursion, and the time is
+// linear in the number of bytes, except that concave polygons of at most 10,000 corners take quadratic time.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 

@@ -43,8 +43,8 @@ struct BaseOptions {
   // For a cylinder or a dome. Without height_mm, the default for a cylinder is twice the plate's extent
   // across its axis, and a dome becomes 0.15 of the plate's radius high.
   std::optional<double> diameter_mm;
-  // For a wave: distance from crest to crest. Default: half the plate's extent across, but at least 4
-  // height_mm.
+  // For a wave: distance from crest to crest. The default is half the plate's extent across the waves, but at
+  // least four times height_mm.
   std::optional<double> length_mm;
   double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is vertical
   bool is_hollow = false;     // whether it is upside down: a valley, a trough or a bowl

@@ -1,4 +1,5 @@
-// Measures how much of its model a relief shows, and its faults. docs/quality.md defines the measures.
+// Measures how much of its model a relief shows, and its faults. docs/quality.md defines each measure and
+// gives its source.
 #pragma once
 
 #include <array>

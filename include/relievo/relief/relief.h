@@ -74,8 +74,8 @@ class ReliefModel {
   // Returns the number of control points in subspace mode; 0 in exact mode.
   std::size_t control_points() const;
 
-  // Returns the layers of the surface's normals. Empty in subspace mode: control points have their own
-  // layers.
+  // Returns the layers of the surface's normals. It is empty in subspace mode, because control points have
+  // their own layers.
   std::span<const PointLayers> layers() const;
 
   // Return the system of all points (exact mode) or the model of the control points (subspace mode). The

@@ -40,7 +40,7 @@ struct Compression {
   double alpha() const;
 };
 
-// A list of strokes that several shapes may share; null if there are none. Compares the strokes themselves.
+// A list of strokes that several shapes may share; null for none. Compares equal if the strokes are equal.
 struct SharedStrokes {
   std::shared_ptr<const std::vector<Stroke>> list = nullptr;
 

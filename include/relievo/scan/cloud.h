@@ -47,8 +47,7 @@ Box bounds(const Cloud& cloud);
 
 // Returns the indices, ascending, of points that cannot belong to the model: their distance from the middle
 // (the median of each coordinate) is more than 20 times the distance within which 90 % of the points are. A
-// single outlier, for example at the origin of a georeferenced scan, would make the model tiny within its own
-// box.
+// single outlier, for example at the origin of a georeferenced scan, would make the model tiny in its box.
 std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any

@@ -83,8 +83,8 @@ Cloud cropped(const Cloud& cloud, const View& view);
 // box in the model's axes.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// A side of a model, named as for parse_view(), and its score as a view. The score is the sum of the normal
-// differences between neighbouring cells of a coarse image, except across depth jumps, times a weight.
+// A side of a model, with its names for parse_view(), and its score as a view. The score is the sum of the
+// normal differences between neighbouring cells of a coarse image, except across depth jumps, times a weight.
 struct ViewGuess {
   std::string name, up;
   double score = 0;

@@ -252,7 +252,8 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// The layers of a chunk, which has the first point, the number of points, the layers' sizes, and the layers.
+// Splits a chunk into layers. It has the first point, the number of points, the layers' sizes, and the
+// layers.
 class LayerSizes {
  public:
   LayerSizes(std::string_view bytes, std::size_t first_size, std::size_t layers)
