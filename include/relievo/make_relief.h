@@ -47,7 +47,7 @@ struct ScanReport {
 // Facts about a relief, and the options that were used.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
-  Method method = Method::paper;  // without a shape, alpha, beta, gamma and u have no meaning
+  Method method = Method::paper;  // if it has no shape, alpha, beta, gamma and u have no meaning
   // NaN if beta is 0 or there is a tone curve, because then u determines the height, and alpha has no effect.
   double alpha = 0;
   double beta = 0, gamma = 0;
@@ -90,7 +90,7 @@ struct ReliefReport : ScanReport {
   // Facts that programs may warn about.
   bool has_idle_alpha = false;     // whether an alpha was given that has no effect
   bool has_needed_steps = false;   // whether steps at depth jumps exceed the request to reach the height
-  std::vector<SampleNote> sample;  // empty if the caller prepared the model
+  std::vector<SampleNote> sample;  // notes on the sampling; empty if the caller prepared the model
 };
 
 struct MadeRelief {

@@ -50,7 +50,7 @@ struct OptionTargets;
 struct OptionAccess {
   // Reads a value of the option's type into `to`. Error::input may be empty; then the caller sets it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the option's effective number; nothing if it has none. Null for options that are texts.
+  // Returns the option's effective number, if it has one. A null pointer means that the option is a text.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
@@ -95,7 +95,7 @@ Result<void> check_range(const OptionRow& option, double number);
 // names and for values of the wrong type; those of check() and of the functions that parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
-// Returns those of the values that are options of depth images, except the camera. Other options are ignored.
+// Returns the options of depth images that `values` has, except the camera. All other options are ignored.
 // Errors: kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
 

@@ -60,7 +60,7 @@ struct NumericOptions {
   bool operator==(const NumericOptions&) const = default;
 };
 
-// The surface that the front of the solid gets.
+// The kind of surface that the solid's front has.
 enum class Finish {
   full,      // the relief itself
   reachable  // the surface that the tool leaves when it cuts the relief

@@ -35,7 +35,7 @@ struct Field {
   std::size_t size = 4, count = 1;  // bytes per value; values per point
   char type = 'F';
   std::size_t at = 0;      // byte offset within a row
-  std::size_t column = 0;  // index of its first value within a row
+  std::size_t column = 0;  // index of the field's first value within a row
 };
 
 class PcdHeaderReader {

@@ -41,7 +41,7 @@ bool has_lists(const PlyElement& element);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
-// Views point into the source.
+// The header of a PLY file. Its texts are views of the source.
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;

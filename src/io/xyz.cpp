@@ -86,7 +86,7 @@ class XyzReader {
   // Numbers of points: promised_ up to the end of this scan, before_block_ up to its beginning.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
-  std::vector<Vec3f> colours_;  // as written in the file
+  std::vector<Vec3f> colours_;  // colours as the file has them, in any range
 };
 
 std::string to_string(const XyzLayout& layout) {
@@ -140,7 +140,7 @@ bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t
 std::string_view line_around(std::string_view data, std::size_t byte) {
   const std::size_t limit = 1000, first = byte - std::min(byte, limit);
   const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
-  const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
+  const std::size_t begin = left.find_last_of("\r\n") + 1;  // without a line break, npos + 1 is 0
   const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
   return data.substr(first + begin, byte + end - first - begin);
 }

@@ -74,8 +74,8 @@ bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t 
 // fractions from 0 to 1.
 bool are_colours(const std::vector<std::vector<double>>& rows, std::size_t column);
 
-// Sets the columns of normals and colours by their values in the rows, after the coordinates in the columns
-// `first` to first + 2.
+// Finds the columns of normals and colours by their values in the rows. The columns `first` to first + 2 are
+// coordinates.
 void find_normals_and_colours(const std::vector<std::vector<double>>& rows, std::size_t first,
                               XyzLayout& layout);
 

@@ -242,7 +242,7 @@ std::optional<double> parse_field(std::string_view field, const XyzLayout& layou
 std::string_view without_comment(std::string_view line) {
   for (const char mark : {'#', '/'}) {
     for (std::size_t i = line.find(mark); i < line.size(); i = line.find(mark, i + 1)) {
-      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // false in 1.#QNAN
+      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // false for the # in 1.#QNAN
       if (begins_word && is_comment(line.substr(i))) line = line.substr(0, i);
     }
   }

@@ -5,7 +5,7 @@
 namespace relievo::field {
 namespace {
 
-constexpr double drooping = 0.22;         // height of the rim below the mid-rib, in half widths
+constexpr double drooping = 0.22;         // depth of the rim below the mid-rib, in half widths
 constexpr double highest_carving = 0.05;  // height above the blade
 constexpr double gentle =
     0.68;  // scales the field to compensate for the slope of the carving, so that it stays a distance bound

@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// A file, or another source of bytes with random access. Errors of read() are passed to the caller.
+// A file, or another source of bytes with random access. stream_front() returns the errors of read().
 class ByteSource {
  public:
   ByteSource() = default;

@@ -14,7 +14,7 @@ namespace relievo {
 // The part of a front that a height map shows.
 enum class MapArea {
   plate,
-  relief  // without the rim and the flat ground around the relief
+  relief  // only the relief, without the rim and the flat ground around it
 };
 
 inline constexpr std::array<Choice<MapArea>, 2> map_area_choices{

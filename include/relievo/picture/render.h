@@ -51,7 +51,7 @@ struct RenderOptions {
 };
 
 // Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane. Rows begin with the lowest. Cells are NaN where the scan shows nothing and at edges.
+// view plane. The first row is the lowest. Cells are NaN where the scan shows nothing and at edges.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;

@@ -58,7 +58,7 @@ struct PlateOptions {
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();            // slope limit for simplify()
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // limit of triangles for simplify()
-  std::optional<Tool> tool = {};  // makes the front that this tool leaves; only for a plane base
+  std::optional<Tool> tool = {};  // if given, the front is cut by this tool; only for a plane base
   // Width and height of the outline, see OutlineOptions; 0 if not given. For a die whose rim is a groove,
   // this is the size of the workpiece that the die makes.
   Vec2 size_mm = Vec2::Zero();
@@ -101,9 +101,9 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // at the origin: x, y, z >= 0, with the bottom at z = 0 and the lowest point of the front at z =
 // thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
 // of the front, including ground and rim. The front's points and triangles come first, in their order. The
-// ground adds as points only the corners of the outline and of the rim's edges; ornaments add theirs. If two
-// points would coincide in single precision, z of the second one is changed by the smallest step that
-// separates them.
+// ground adds as points only the corners of the outline and of the rim's edges; ornaments add their own
+// points. If two points would coincide in single precision, z of the second one is changed by the smallest
+// step that separates them.
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the

@@ -37,7 +37,7 @@ struct PointLayers {
   LayerXy fine, middle, coarse, broad;
 };
 
-// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up
+// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because slopes there use up
 // height but add little shading.
 Vec2f faded_xy(const Vec3f& normal);
 

@@ -27,7 +27,7 @@ struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest height, with detail; the base's 0 counts
+  double height = 0;            // h: highest minus lowest height with detail, the base's 0 included
   Shape shape;                  // the shape of the relief
 };
 
@@ -74,8 +74,8 @@ class ReliefModel {
   // Returns the number of control points in subspace mode; 0 in exact mode.
   std::size_t control_points() const;
 
-  // Returns the layers of the surface's normals. It is empty in subspace mode, because control points have
-  // their own layers.
+  // Returns the layers of the surface's normals. The list is empty in subspace mode, because control points
+  // have their own layers.
   std::span<const PointLayers> layers() const;
 
   // Return the system of all points (exact mode) or the model of the control points (subspace mode). The

@@ -52,8 +52,8 @@ struct Shape {
   double gamma = 0;           // detail coefficient, [0, 1]; in the layered style it attenuates coarse layers
   double max_slope = 4;       // largest target slope, > 0; 4 is 76 degrees
   double boundary_width = 2;  // width of the soft rim by equation (7), in units of rho, > 0
-  // Least share of the height for depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do not reach a
-  // requested height, jumps supply the rest.
+  // Least share of the height for steps at depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do
+  // not reach a requested height, these steps add the rest.
   double steps = 0;
   Style style = Style::paper_weights;
   // Whether the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
@@ -73,7 +73,7 @@ struct Shape {
   // Local changes of the finished heights, for all methods except the paper's. If a stroke changes the
   // highest point, all heights are scaled, so that the height of the relief stays the same.
   SharedStrokes strokes = {};
-  // The depth, in the surface's units, >= 0, of lines that are dark in the scan's colours.
+  // The depth by which lines that are dark in the scan are lowered, in the surface's units, >= 0.
   double line_depth = 0;
 
   bool operator==(const Shape&) const = default;

@@ -57,7 +57,7 @@ inline constexpr double narrow_blur = .008, wide_blur = .03;
 struct Stroke {
   std::string name;
   Brush brush = Brush::soften;
-  double amount = 1;  // [0, 1]; strengthen and sharpen: [0, 4]
+  double amount = 1;  // factor of the change, see Brush: [0, 1]; strengthen and sharpen: [0, 4]
   // Largest distance from the line, in the units of the scan, > 0. In a lasso or a region, the change has
   // its full amount at this distance from the edge, or before.
   double radius = 0;
@@ -67,7 +67,7 @@ struct Stroke {
   StrokeArea area = StrokeArea::line;
   Vec3 direction =
       Vec3::Zero();      // of a lasso: towards the viewer who drew it, in the scan's axes; any length > 0
-  double tolerance = 6;  // of a region: most degrees that it turns per 1 % of the longer side, [0.1, 180]
+  double tolerance = 6;  // of a region: most turning, in degrees per 1 % of the longer side, [0.1, 180]
 
   bool operator==(const Stroke&) const = default;
 };

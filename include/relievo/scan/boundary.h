@@ -30,11 +30,11 @@ struct Boundary {
 // their Delaunay triangulation, and their sampling distance rho.
 //
 // A triangle is outside if the radius of its circumcircle exceeds 3 rho, because there are no points inside
-// that circle. A triangle of a narrow hole is not outside. A narrow hole is a connected set of such triangles
-// that does not touch the hull and has no radius above 5 rho. If the local spacing of all three corners
-// exceeds 2 rho, the scan is sparse there, and the local spacing replaces rho. `spacing` is Spacing::local of
-// each point, for clouds of uneven density. For other clouds, `spacing` must be empty, because it would close
-// gaps beside surfaces that are seen edge-on.
+// that circle. A triangle of a narrow hole is not outside. A narrow hole is a connected set of triangles with
+// radii from 3 to 5 rho that does not touch the hull. If the local spacing of all three corners exceeds 2
+// rho, the scan is sparse there, and the local spacing replaces rho. `spacing` is Spacing::local of each
+// point, for clouds of uneven density. For other clouds, `spacing` must be empty, because it would close gaps
+// beside surfaces that are seen edge-on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 

@@ -113,8 +113,8 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
 
 // Returns a picture as flat points with grey colours for a lithophane: one point per pixel or block of
 // pixels, and black points along the outline of the picture. The brightest value is white, the darkest black;
-// missing values are white. Uses only `points`. Errors: those of check(); kind geometry if all values are
-// equal.
+// missing values are white. Uses only options.points. Errors: those of check(); kind geometry if all values
+// are equal.
 Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& options);
 
 }  // namespace relievo

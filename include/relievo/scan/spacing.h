@@ -16,8 +16,8 @@ struct Spacing {
   double rho = 0;
   bool is_uneven = false;  // whether rho is the quarter of the quantile
   // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other
-  // point and k is spacing_neighbours. It is the side of a square with the area per point. For randomly
-  // scattered points it is about twice the distance to the nearest neighbour.
+  // point and k is spacing_neighbours. It is the side of a square whose area is the area per point. For
+  // randomly scattered points it is about twice the distance to the nearest neighbour.
   std::vector<float> local;
   // The indices of each point's k nearest other points, nearest first; no_index if the cloud has fewer.
   std::vector<std::array<Index, spacing_neighbours>> nearest;

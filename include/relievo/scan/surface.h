@@ -15,7 +15,7 @@ namespace relievo {
 // space-filling curve, so that neighbours in the view plane are close in memory and the order of the cloud
 // has no influence.
 struct Surface {
-  std::vector<Vec3> points;             // R_view_model (p - centre)
+  std::vector<Vec3> points;             // R_view_model (p - centre) for points p of the cloud
   std::vector<Vec3f> normals;           // unit vectors with z > 0; (0, 0, 1) at hole-fill points
   std::vector<Colour> colours;          // colours of the points; empty if the cloud has none
   std::vector<float> own_heights = {};  // see Cloud; empty if the cloud has none
@@ -37,7 +37,7 @@ struct Surface {
   // if View::has_plane is false.
   std::optional<SupportPlane> plane = {};
   double measured_noise = 0;  // standard deviation along the normals, in rho; 0 if it is small
-  double removed_noise = 0;   // the noise that the view asks to remove or, by default, the measured noise
+  double removed_noise = 0;   // noise that was removed: as the view asks, by default the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // whether the cloud's normals pointed inwards
 

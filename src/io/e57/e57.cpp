@@ -25,7 +25,7 @@ struct E57Scan {
 
   E57Section section;
   std::vector<PackedColumn> columns;
-  Triple position = {};  // x, y and z, or range, azimuth and elevation
+  Triple position = {};  // columns of x, y and z, or of range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
   std::optional<std::size_t> invalid;    // column that is not 0 for points that the scanner could not measure

@@ -20,7 +20,7 @@ using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 // Makes tables for processing eight bytes per step ("slicing by 8", Kounavis and Berry 2008). Table k is for
 // a byte that is followed by k more bytes.
 constexpr CrcTables make_crc_tables() {
-  constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's, reflected
+  constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's polynomial, with its bits reversed
   CrcTables tables{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t crc = i;

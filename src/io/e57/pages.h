@@ -21,7 +21,7 @@ struct E57Pages {
   std::string_view xml;       // the XML of the file, a part of `bytes`
 
   E57Pages() = default;
-  E57Pages(E57Pages&&) = delete;  // `xml` points into `bytes`
+  E57Pages(E57Pages&&) = delete;  // not movable, because `xml` points into `bytes`
 
   // Convert between physical and logical offsets. A physical offset inside a checksum becomes the end of all
   // bytes.

@@ -41,7 +41,7 @@ bool is_readable_with(std::string_view extension) {
 // The vertices of a primitive, one per position.
 struct Vertices {
   AccessorValues positions, normals, colours;
-  // Used if there are no colours; empty if the file has no textures.
+  // Colours from the material, used if `colours` is empty; empty if the file has no textures.
   std::vector<Colour> material_colours = {};
 
   std::size_t count() const { return positions.count(); }

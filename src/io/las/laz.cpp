@@ -50,8 +50,8 @@ struct LazLayout {
 constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
 // This value (or 0) is stored as the number of points per chunk if that number varies.
 constexpr std::uint32_t chunks_vary = ~0U;
-constexpr std::uint64_t most_points_a_byte =
-    256;  // limit; 40 were measured for a row of points with equal steps
+// Limit of points per byte. 40 were measured for a row of points with equal steps.
+constexpr std::uint64_t most_points_a_byte = 256;
 
 // Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the
 // file, and have as many points as the header promises. Errors name the byte.
@@ -252,7 +252,7 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// Splits a chunk into layers. It has the first point, the number of points, the layers' sizes, and the
+// Splits a chunk into layers. A chunk has the first point, the number of points, the layers' sizes, and the
 // layers.
 class LayerSizes {
  public:
