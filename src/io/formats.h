@@ -57,9 +57,9 @@ bool is_text(const Source& source);
 // - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
-// - NPY: arrays of N x 3 to N x 9 floating-point numbers are points: x y z, then normals and colours as in
-// XYZ. An array of H x W x 3 is an organised cloud, and one of V x H x W x 3 is V organised clouds. Other
-// arrays are depth images.
+// - NPY: arrays of N x 3 numbers, or N x 4 to N x 9 floating-point numbers, are points: x y z, then normals
+// and colours as in XYZ. An array of H x W x 3 is an organised cloud, and one of V x H x W x 3 is V organised
+// clouds. Other arrays are depth images.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of integers
 //   from 0 to 255 or of fractions from 0 to 1 are colours. A line of column names, if there is one,

@@ -43,7 +43,7 @@ enum class StrokeArea {
   // The points inside a closed line, as the viewer saw it who drew it. Points that are deeper behind the line
   // than half of its size are left out.
   lasso,
-  region  // the points around the first corner, as far as the surface turns less than the tolerance
+  region  // the points around a single point, as far as the surface turns less than the tolerance
 };
 
 inline constexpr std::array<Choice<StrokeArea>, 3> stroke_areas{

@@ -45,7 +45,7 @@ Eigen::Vector2<Real> compressed_slope(const std::type_identity_t<Eigen::Vector3<
 struct SlopeInput {
   std::span<const Vec3f> normals;
   std::span<const float> k;                  // normalised mean curvature
-  std::span<const float> boundary_weight;    // w_b
+  std::span<const float> boundary_weight;    // w_b of equation (7)
   double delta = 0;                          // standard deviation of |k|
   std::span<const PointLayers> layers = {};  // only for the layered style
   std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
