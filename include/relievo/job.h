@@ -1,5 +1,5 @@
-// Jobs: scans together with the options of their relief. A job is loaded and prepared once. Then its live
-// model makes solids in seconds, and frames and pictures in milliseconds.
+// Loads and prepares jobs. A job consists of scans and the options of their relief. The result is a live
+// model, which makes solids in seconds, and frames and pictures in milliseconds.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ struct Job {
   ReliefOptions options = {};
 };
 
-// Returns the job of a single scan from the bytes of its file. Errors call the file `name`. The remarks of
-// its model say what was left out of the file. Errors: those of read_cloud().
+// Returns the job of a single scan from the bytes of its file. Error messages call the file `name`. The job's
+// SceneModel::remarks say which parts of the file were not read. Errors: those of read_cloud().
 Result<Job> load(std::span<const std::byte> file, std::string_view name);
 
 // A frame of a live model. It is valid until that model makes its next frame.
@@ -31,15 +31,15 @@ struct LiveFrame {
   const Frame* frame = nullptr;
   // The gains that FrameMaker::write_gains() returns; empty without SurfaceDetail.
   std::span<const float> gains = {};
-  double stretch = 1;  // factor of the heights in pictures
+  double stretch = 1;  // factor by which pictures stretch the heights
   double mm_per_unit = 1;
   bool is_new = false;  // false if the frame is the same as the previous one
 };
 
-// The requirements for a frame of given options. A quick frame takes one or two solves and may miss a
-// requested height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
+// The request for a frame. A quick frame takes one or two solves. Its height may differ from a requested
+// height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
 struct FrameWish {
-  std::optional<double> u;  // the compression's u, replaces a requested height
+  std::optional<double> u;  // u of Compression; if given, it replaces a requested height
   bool is_quick = false;
 };
 
@@ -73,8 +73,8 @@ class LiveModel {
   // The functions below are the steps of frame() and picture(), for programs that show a relief during
   // editing. Except for with_width(), they need options with a width.
 
-  // Returns the same as relievo::with_width(), but searches for the largest width only if sizes of the plate
-  // have changed.
+  // Returns the same as relievo::with_width(). Searches for the largest width only if the sizes of the plate
+  // have changed since the last call.
   Result<ReliefOptions> with_width(const ReliefOptions& options);
 
   // Returns the largest width that fits into the plate of the last call of with_width(); nothing if its
@@ -83,20 +83,20 @@ class LiveModel {
 
   double mm_per_unit(const ReliefOptions& options) const;
 
-  // Returns the frame. Makes it unless the last frame was the same.
+  // Returns the frame for the options. Makes a new frame only if the options or the wish have changed.
   LiveFrame make_frame(const ReliefOptions& options, const FrameWish& wish = {});
 
   // Returns the last result of make_frame(). Before the first call its `frame` is null.
   LiveFrame last_frame() const;
 
   // Returns the height in mm of the highest relief with the options' shape, which is the uncompressed relief.
-  // Steps at depth jumps are not included, although they may be added to reach a requested height.
+  // The steps that may be added at depth jumps to reach a requested height are not included.
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
-  // Draws the frame on the plate of the options, without ornaments, simplification and the marks of a tool, and
-  // with a draft only at its rim. Options without ground must have a plane base and no wrap. Errors: those of check(), check_model(),
-  // make_plate() and wrap_plate().
+  // Draws the frame on the plate of the options. The picture does not show ornaments, simplification and the
+  // marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base and
+  // no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
   Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
                                      const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;
@@ -107,8 +107,8 @@ class LiveModel {
   std::unique_ptr<State> state_;
 };
 
-// Returns the live model of a job. Chooses the view if that is not given, samples the points that are visible
-// in the view, and prepares their model. Errors: those of sample_for_view() and of prepare() for a cloud.
+// Returns the live model of a job. Chooses the view if the options give none, samples the points that it
+// shows, and prepares their model. Errors: those of sample_for_view() and of prepare() for a cloud.
 Result<LiveModel> prepare(const Job& job, Progress* progress = nullptr);
 
 }  // namespace relievo

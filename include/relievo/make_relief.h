@@ -1,4 +1,4 @@
-// Makes a solid with a relief from a scan, in one call. The steps of that call are functions, too: sample the
+// Makes a solid with a relief from a scan, in one call. Each step of that call is also a function: sample the
 // points that a view shows (sample_for_view), find their surface and factor its system (prepare), and make
 // the solid (make_relief).
 #pragma once
@@ -23,8 +23,8 @@ struct Surface;
 // Facts about the points of a scan and its visible points.
 struct ScanReport {
   std::size_t input_points = 0, repeated_points = 0, visible_points = 0, removed_points = 0,
-              crumbs = 0;                        // as in Surface
-  double measured_noise = 0, removed_noise = 0;  // as in Surface
+              crumbs = 0;                        // see Surface
+  double measured_noise = 0, removed_noise = 0;  // standard deviations in rho, see Surface
   double rho = 0;                                // sampling distance, in the cloud's units
   double diagonal = 0;  // L_d: diagonal of the cloud's bounding box, in the cloud's units
 
@@ -47,21 +47,21 @@ struct ScanReport {
 // Facts about a relief, and the options that were used.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
-  Method method = Method::paper;  // without a shape, alpha, beta, gamma and u have no meaning
-  // NaN if beta is 0 or there is a tone curve, because u has an effect then and alpha has none
+  Method method = Method::paper;  // if it has no shape, alpha, beta, gamma and u have no meaning
+  // NaN if beta is 0 or there is a tone curve, because then u determines the height, and alpha has no effect.
   double alpha = 0;
   double beta = 0, gamma = 0;
   double u = 0;      // alpha^-beta, see Compression
-  double steps = 0;  // share of the height that depth jumps take, see Shape
+  double steps = 0;  // share of the height taken by steps at depth jumps, see Shape
   std::optional<double> height_requested_mm;
   std::optional<double> height_usual_mm;  // default height if none was requested, see effective_height_mm()
   double height_mm = 0;        // height of the front above its base, from the lowest to the highest point
-  double below_ground_mm = 0;  // the part of height_mm below the flat ground; for a die, all of it
-  double steepest_deg = 0;     // steepest slope of a triangle of the front, rounded as in files
+  double below_ground_mm = 0;  // the part of height_mm below the flat ground; for a die, all of height_mm
+  double steepest_deg = 0;     // steepest slope of the front's triangles, rounded as in files
 
-  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. In x and y
-  // this is exact. In z the model keeps its uncompressed depth, and its lowest visible point is on the ground
-  // (with a curved base, on the ground in the middle of the plate). For a mirrored form `rotation` includes
+  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
+  // exact in x and y. In z it keeps the uncompressed depth of the model, whose lowest visible point is on the
+  // ground (with a curved base, on the ground in the plate's middle). For a mirrored form `rotation` includes
   // the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
@@ -72,8 +72,8 @@ struct ReliefReport : ScanReport {
   OrnamentFacts ornaments;
   std::optional<double> rim_height_mm;  // above the ground; empty without a rim
 
-  // Largest difference between the simplified front and the full one, if a tolerance or a number of triangles
-  // was requested.
+  // The largest height difference between the simplified front and the front with all samples. It is set if a
+  // tolerance or a number of triangles was requested.
   std::optional<double> simplification_error_mm;
   // Numbers of triangles: of the front, and of the front with all samples.
   std::size_t front_triangles = 0, full_triangles = 0;
@@ -85,12 +85,12 @@ struct ReliefReport : ScanReport {
     bool is_inside = false;       // whether the relief is on the inner side
     Vec2 across = Vec2::UnitX();  // the direction in which the plate is bent
   };
-  std::optional<Wrapped> wrap;  // if set, offset and scale are for the flat plate
+  std::optional<Wrapped> wrap;  // if set, `offset` and `scale` are for the plate before bending
 
   // Facts that programs may warn about.
   bool has_idle_alpha = false;     // whether an alpha was given that has no effect
-  bool has_needed_steps = false;   // whether depth jumps take more than requested to reach the height
-  std::vector<SampleNote> sample;  // empty if the caller prepared the model
+  bool has_needed_steps = false;   // whether steps at depth jumps exceed the request to reach the height
+  std::vector<SampleNote> sample;  // notes on the sampling; empty if the caller prepared the model
 };
 
 struct MadeRelief {
@@ -104,21 +104,22 @@ struct MadeRelief {
 Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOptions& options = {},
                             Progress* progress = nullptr);
 
-// Returns the plate with the relief of a prepared model. The options view, mode, control points and points
-// are ignored. Reports stages and their times to `progress`; the caller must end the last stage with
-// Progress::finish(). Errors: those of check(), of ReliefModel::make_at_height() and of the functions for the
-// plate; kind cancelled.
+// Returns the plate with the relief of a prepared model. Ignores the options view, mode, control points and
+// points, because the model already has them. Reports stages and their times to `progress`; the caller must
+// end the last stage with Progress::finish(). Errors: those of check(), of ReliefModel::make_at_height() and
+// of the functions for the plate; kind cancelled.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// Returns the height in mm of the highest relief whose walls satisfy the draft angle of the options. Without
-// a draft angle, returns the height of the highest relief. The method must have a shape, see has_shape().
-// Errors: those of make_relief().
+// Returns the height in mm of the highest relief with the options' shape whose walls satisfy the draft angle,
+// if the options have one. The method must have a shape, see has_shape(). Errors: those of make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
-// Returns an error of kind option if the model was not prepared for the method of the options
-// (ReliefModel::serves()), or if dark lines are to be lowered but the surface has no colours.
+// Returns an error of kind option if the model cannot make the relief of the options: it was not prepared for
+// their method (ReliefModel::serves()); dark lines are to be lowered, but it has no colours; light or
+// attention is given, but it has only control points; or a stroke protects, but one model of its scene has
+// its own height.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
 // Returns an error of kind option if, for a relief of that height, the bevel of the options' rim is closer to
@@ -129,17 +130,17 @@ Result<void> check_rim(const ReliefOptions& options, double height_mm);
 // function for several files. Errors: also those of sample_for_view() and prepare().
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Makes the relief of a cloud in the same way.
+// Does the same for a cloud.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape for the options. If the relief must have a requested or default height, the search for
-// that height starts with this shape. The depth of lines is converted to units of `mm_per_unit` millimetres.
+// that height starts with this shape. `mm_per_unit` converts the depth of dark lines from mm.
 Shape shape_of(const ReliefOptions& options, double mm_per_unit = 1);
 
-// Returns the options with a width: the given width; otherwise the largest width with which relief, margin
-// and rim fit into a plate of the given size; without that size the default. A height that is a share of the
-// diagonal is converted to mm. make_relief() includes this step. Errors: kind option if the plate is too
-// small.
+// Returns the options with width_mm set. A given width stays. If only the size of the plate is given, the
+// width is the largest with which relief, margin and rim fit into the plate. Otherwise it is the default. A
+// height that is a share of the diagonal is converted to mm. make_relief() includes this step. Errors: kind
+// option if the plate is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns the number of millimetres per unit of the surface, for the width from with_width().

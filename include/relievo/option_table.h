@@ -1,6 +1,6 @@
-// The table of options: a single entry describes everything about an option. The command line, projects, the
-// studio with its page, batch, Python, npm and the documents have no lists of their own; they use
-// option_table().
+// Declares the table of options, in which a single entry describes everything about an option. The command
+// line, projects, the studio with its page, batch, Python, npm and the documents have no lists of their own;
+// they use option_table().
 #pragma once
 
 #include <array>
@@ -38,21 +38,19 @@ inline constexpr std::array<Choice<OptionStage>, 7> option_stages{{{"input", Opt
                                                                    {"body", OptionStage::body},
                                                                    {"triangles", OptionStage::triangles}}};
 
-// A value as users enter it; an empty text means no value. A length may also be a text with a unit, see
-// parse_length().
+// A value as users enter it; an empty text means that the option is not given. A length may also be a text
+// with a unit, see parse_length().
 using OptionValue = std::variant<std::string, double>;
 
 // Values by option name. Missing options have their defaults.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// The functions that read a value of an option, and return its effective number.
+// Functions that read an option's value, and return its effective number (the given one or the default).
 struct OptionTargets;
 struct OptionAccess {
-  // Reads a value of the option's type into `to`. The input of an error may be empty; then the caller sets
-  // it.
+  // Reads a value of the option's type into `to`. Error::input may be empty; then the caller sets it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the effective number, given or default; nothing if there is none. Null for options that are
-  // texts.
+  // Returns the option's effective number, if it has one. A null pointer means that the option is a text.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
@@ -63,7 +61,7 @@ struct OptionRow {
   OptionStage stage = OptionStage::view;
   double min = -std::numeric_limits<double>::infinity();  // range of a number
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string_view> choices = {};  // all words that the value may be or begin with
+  std::vector<std::string_view> choices = {};  // words that are allowed as the value or at its beginning
   std::string_view help;                       // one line, without range and default
   OptionValue initial = {};                    // the default, if it is a fixed value
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
@@ -86,19 +84,19 @@ std::span<const OptionRow> option_table();
 // Returns the option with that name; null if there is none.
 const OptionRow* find_option(std::string_view name);
 
-// Returns the expected type of an option's value, as in errors: "expected a number".
+// Returns the expected type of an option's value for errors, such as "expected a number".
 std::string_view expected_type(const OptionRow& option);
 
 // Returns an error of kind option, naming the option, if the number is outside its range.
 Result<void> check_range(const OptionRow& option, double number);
 
 // Reads and checks the values. Returns the options. Options of depth images are ignored, see parse_depth(). A
-// base of kind image has no height map yet. Errors: kind option, naming the option, for unknown names and for
-// values of the wrong type; those of check() and of the functions that parse texts.
+// base of kind image gets its height map from the caller. Errors: kind option, naming the option, for unknown
+// names and for values of the wrong type; those of check() and of the functions that parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
-// Returns the options of depth images in the values, without the camera. Other options are ignored. Errors:
-// kind option, naming the option.
+// Returns the options of depth images that `values` has, except the camera. All other options are ignored.
+// Errors: kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
 
 // Returns whether the values ask to keep doubtful points, see ReadOptions. Other options are ignored. Errors:

@@ -1,4 +1,4 @@
-// The options of a relief as typed values, which a program sets, or parse_options() reads.
+// Defines the options of a relief as typed values. A program sets them itself, or parse_options() reads them.
 #pragma once
 
 #include <algorithm>
@@ -23,47 +23,47 @@
 
 namespace relievo {
 
-// The options that are numbers; option_table() has their ranges. Most comments end with the default.
+// The options that are numbers. option_table() has their ranges and defaults.
 struct NumericOptions {
   std::optional<double> width_mm;     // longer side of the relief, without margin; see effective_width_mm()
-  std::optional<double> diameter_mm;  // diameter of a round plate; the smallest that fits
+  std::optional<double> diameter_mm;  // diameter of a round plate; default: the smallest that fits
   std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> height_of_diagonal;  // the height as a share of L_d, in place of height_mm
-  std::optional<double> mm_per_value;    // a vertical scale instead of a height, see relief_of_values(); none
-  std::optional<double> ground_value;    // the value at the ground, for mm_per_value
-  std::optional<double> alpha;           // the paper's height coefficient; 4
-  std::optional<double> saturation;      // the paper's beta; see effective_saturation()
-  std::optional<double> detail;          // the paper's gamma; see effective_detail()
-  std::optional<double> steepest_deg;    // largest target slope; 76
-  double light_contrast = .8;            // factor of the model's local contrast under the light
-  double attention = 0;                  // exponent of the attention, see Shape
-  double colour_mm = 0;                  // depth of lines that are dark in the scan
-  std::optional<double> draft_deg;       // least angle between every triangle and the vertical; none
-  std::optional<double> boundary_width;  // width of (7), in units of rho; see effective_boundary_width()
-  double steps = 0;                      // least share of the height for depth jumps, see Shape
+  std::optional<double> mm_per_value;        // vertical scale, see relief_of_values(); default: none
+  std::optional<double> ground_value;        // the value at the ground; only with mm_per_value
+  std::optional<double> alpha;               // the paper's height coefficient; default: 4
+  std::optional<double> saturation;          // the paper's beta; see effective_saturation()
+  std::optional<double> detail;              // the paper's gamma; see effective_detail()
+  std::optional<double> steepest_deg;        // largest target slope; default: 76
+  double light_contrast = .8;                // factor of the model's local contrast, see ReliefLight
+  double attention = 0;                      // exponent of the attention, see Shape
+  double colour_mm = 0;                      // depth by which dark lines of the scan are lowered
+  std::optional<double> draft_deg;       // least angle between every triangle and the vertical; default: none
+  std::optional<double> boundary_width;  // width of the soft rim, in rho; see effective_boundary_width()
+  double steps = 0;                      // least share of the height for steps at depth jumps, see Shape
   std::optional<double> planes;          // least step between parts, see Shape; see effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
-  std::optional<double> rim_mm;          // width of a raised rim along the outline; no rim
-  std::optional<double> rim_height_mm;   // height of the rim; the relief's height, if its bevel fits
-  std::optional<double> rim_bevel_mm;    // width of the rim's bevel; 0.3 of the rim's height
-  std::optional<double> text_mm;         // height of the text's capital letters; 0.6 of the margin
+  std::optional<double> rim_mm;          // width of a raised rim along the outline; default: no rim
+  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if its bevel fits
+  std::optional<double> rim_bevel_mm;    // width of the rim's bevel; default: 0.3 of the rim's height
+  std::optional<double> text_mm;         // height of the text's capital letters; default: 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament
   std::optional<double> text_inset_mm;   // distance from the rim to the text, see Ornament
   std::optional<double> points;          // number of visible points to sample; see usual_points()
-  std::optional<double> resolution_mm;   // distance between samples; the smaller of width / 700 and rho
-  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; no simplification
-  std::optional<double> triangles;       // largest number of triangles of the solid; no limit
+  std::optional<double> resolution_mm;   // distance between samples; default: min(width / 700, rho)
+  std::optional<double> tolerance_mm;    // largest error of the simplified mesh; default: no simplification
+  std::optional<double> triangles;       // largest number of triangles of the solid; default: no limit
 
   bool operator==(const NumericOptions&) const = default;
 };
 
-// The surface of the front.
+// The kind of surface that the solid's front has.
 enum class Finish {
   full,      // the relief itself
-  reachable  // the surface that the tool leaves
+  reachable  // the surface that the tool leaves when it cuts the relief
 };
 
 inline constexpr std::array<Choice<Finish>, 2> finish_choices{
@@ -71,7 +71,7 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
 
 struct ReliefOptions : NumericOptions {
   std::optional<Method> method;         // default: see effective_method()
-  std::optional<ToneCurve> tone;        // replaces (6) and the saturation
+  std::optional<ToneCurve> tone;        // replaces equation (6) and the saturation
   std::optional<LightDirection> light;  // the light for which slopes are chosen
   Strokes strokes;                      // local changes painted onto the model
   Mode mode = Mode::exact;
@@ -109,9 +109,9 @@ struct ReliefOptions : NumericOptions {
     return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
   }
   double effective_alpha() const { return alpha.value_or(4); }
-  // The default is the angle of Shape::max_slope.
+  // The default is the angle of the default Shape::max_slope.
   double effective_steepest_deg() const { return steepest_deg.value_or(76); }
-  // The default margin is small if a diameter is given, as for coins. It is wide enough for texts and borders.
+  // The default margin is small if a diameter is given, as for coins, unless texts or borders need more room.
   double effective_margin_mm() const {
     if (text_mm && !text.empty()) return margin_mm.value_or(std::max(diameter_mm ? 1. : 5., *text_mm / .6));
     const bool has_ornaments = !text.empty() || !ornaments.empty() || !ornament_source.empty();

@@ -11,17 +11,17 @@ namespace relievo {
 
 struct Surface;
 
-// The place of an ornament: its outlines in mm from the middle of the plate, x to the right and y up, filled by winding
-// number. An ornament that cannot be set has an error instead.
+// The place of an ornament: its outlines in mm from the middle of the plate, x to the right and y up. The
+// ornament covers the points whose winding number is not 0. If it cannot be made, there is an error.
 struct OrnamentPlace {
   std::vector<std::vector<Vec2>> outlines = {};
   std::optional<Vec2> at_mm =
-      {};  // the place of a straight text or a drawing that Ornament::at_mm would give
+      {};  // for a straight text or a drawing: the value of Ornament::at_mm that puts it there
   std::optional<Error> error = {};
 };
 
-// Returns the places of options.all_ornaments(), in that order, on the flat plate of the surface's relief. Whether the
-// ornaments have room is left to make_relief(). Errors: those of check() and with_width().
+// Returns the places of options.all_ornaments(), in that order, on the flat plate of the surface's relief.
+// Does not check that the ornaments have room; make_relief() does. Errors: those of check() and with_width().
 Result<std::vector<OrnamentPlace>> ornament_places(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

@@ -22,9 +22,9 @@ struct ReliefOptions;
 // bounding box, which excludes outliers, and then translated.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();  // about x, then y, then z, which are fixed axes; 90 about z maps x to y
-  std::optional<Vec3> translate = {};  // in the units of the files
+  std::optional<Vec3> translate = {};  // in the units of the files; default: see place_models()
   double scale = 1;                    // > 0
-  bool is_mirrored = false;            // whether x is reversed, before scaling and rotating
+  bool is_mirrored = false;            // whether x is reversed before scaling and rotating
   // The height of the model's highest point above the surface behind it, as a share of the relief's height,
   // in [0.01, 0.9]; see OwnHeights. If not given, the relief's method determines it.
   std::optional<double> height = {};
@@ -39,10 +39,10 @@ Mat3 turn_of(const Pose& pose);
 
 // The use of each pixel of a depth image, and how its values were interpreted.
 struct PixelUses {
-  Image<PixelUse> uses;  // as in DepthCloud
+  Image<PixelUse> uses;  // see DepthCloud
   int reduction = 1;
   DepthValues values = DepthValues::depth;
-  Vec2 pixel_shape = Vec2::Ones();  // as in DepthImage
+  Vec2 pixel_shape = Vec2::Ones();  // see DepthImage::pixel_shape()
 };
 
 struct SceneModel {
@@ -61,7 +61,7 @@ struct Scene {
 
 // Maps a point p of the file to scale * turn * p + offset in the scene.
 struct PlacedModel {
-  Mat3 turn = Mat3::Identity();  // as from turn_of()
+  Mat3 turn = Mat3::Identity();  // see turn_of()
   double scale = 1;
   Vec3 offset = Vec3::Zero();
 
@@ -69,41 +69,42 @@ struct PlacedModel {
 };
 
 // Returns the placement of each model.
-// - If any pose has a `translate`, the poses place all models; files with common axes then fit together.
+// - If any pose has a `translate`, the poses place all models; models from files with common axes then fit
+// together.
 // - A single model does not move.
 // - Otherwise the models are arranged for the view: side by side from left to right on a common ground line,
 // with their centres at the same depth, and with gaps of 8 % of their height. The first model keeps its size
-// and, unless it is rotated, its position. The others get the height of the first, but at most one and a half
-// times that height as width. Then their `scale` multiplies this size: with 0.5 a model is half as high as
-// the first.
+// and, unless it is rotated, its position. Each other model is scaled to the height of the first, or less if
+// it would be wider than one and a half times that height. Its `scale` multiplies this size: with 0.5 it is
+// half as high as the first.
 // Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], and for angles and
 // translations that are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
 // Returns the best side of the scene for a relief, see rank_views(). If there are several models, or a pose
-// moves the only model, it is always the front, because models are arranged to be viewed from there. At most
-// a million points are examined.
+// moves the only model, the best side is always the front, because models are arranged to be viewed from the
+// front. At most a million points are examined.
 ViewGuess best_side(const Scene& scene);
 
-// Returns the view, rotated to a side.
+// Returns the view, rotated so that it shows the given side.
 View on_side(View view, const ViewGuess& side);
 
-// Returns the view, rotated to the best side if that is still to be chosen (View::is_best).
+// Returns the view. If View::is_best is set, it is rotated to the best side.
 View chosen_view(const Scene& scene, const View& view);
 
 // Returns the default number of visible points: 300,000. For a scene of only meshes it is 15 per triangle if
-// that is less, because meshes have no finer detail than their triangles; but at least 100,000, so that
-// outlines are smooth.
+// that is less, because meshes have no finer detail than their triangles. It is at least 100,000, for smooth
+// outlines.
 double usual_points(const Scene& scene);
 
 // Returns the points of all placed models, in the scene's axes. `points` is the wanted number of points, by
 // default usual_points().
-// - All meshes together give about the wanted number of points, without hidden parts. Clouds keep all points
-// but outliers.
-// - All models get about the same sampling distance. It is that of the finest cloud or, if that is larger or
-// the scene has meshes, the distance at which the wanted number of points is visible. Finer clouds are
-// subsampled to this distance. Of much coarser clouds only the visible points are used, and points are added
-// between them.
+// - All meshes together give about the wanted number of points, and none on hidden parts. Clouds keep all
+// points except outliers.
+// - All models get about the same sampling distance. A scene of only clouds gets the distance of the finest
+// cloud, or the distance at which the wanted number of points is visible if that is larger. A scene with
+// meshes always gets the second of these. Finer clouds are subsampled to this distance. Much coarser clouds
+// keep only their visible points, and points are added between these.
 // - Normals are estimated or oriented separately for each model.
 // - If any model has colours, models without colours become white.
 // - A single cloud that is not moved keeps all points of its file but outliers.
@@ -112,8 +113,8 @@ double usual_points(const Scene& scene);
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 
-// Returns the plate with the relief of the scene, like make_relief() for a file. Frees the clouds as soon as their
-// points are sampled, unless others own them, too.
+// Returns the plate with the relief of the scene, like make_relief() for a file. Frees the clouds as soon as
+// their points are sampled, unless the caller owns them, too.
 Result<MadeRelief> make_relief(Scene scene, const ReliefOptions& options, Progress* progress = nullptr);
 
 }  // namespace relievo

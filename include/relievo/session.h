@@ -21,8 +21,8 @@ struct SessionStatus {
   // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
   std::optional<Error> error;
   // Whether the points are measured and the first coarse relief, if wanted, is made. This is long before the
-  // first model of the points is ready. Of a large cloud, that relief is made before all points are measured;
-  // until then turn() to another view is cancelled.
+  // first model of the points is ready. The first coarse relief of a large cloud is made before all points
+  // are measured; until they are, turn() to another view returns an error of kind `cancelled`.
   bool can_turn = false;
 };
 
@@ -41,12 +41,11 @@ struct Preparation {
   std::function<View()> chosen_view = {};
 
   // If set, it is called for coarse reliefs, and returns the points of all sides. If not set, coarse reliefs
-  // use the result of points(). That is right for clouds; but the points of a mesh are sampled for a single
-  // view.
+  // use the result of points(). Meshes need all_sides, because points() samples them for a single view.
   std::function<Points(Progress&)> all_sides = {};
 
-  // Whether to make the coarse relief of this view as soon as the points are measured, if there is no model
-  // yet; of a part of the points, if the cloud is large, before all of them are measured. It is made in the
+  // Whether to make a coarse relief of this view if there is no model yet. It is made as soon as the points
+  // are measured; for a large cloud, from a part of the points before all are measured. It is made in the
   // session's thread, and turn() returns it.
   bool makes_first_relief = false;
 
@@ -54,7 +53,7 @@ struct Preparation {
   // is locked: the function must not call the session, nor take a lock that a caller of the session may own.
   std::function<void(const Model&)> ready = {};
 
-  // If set, it is called when status() has changed. Of the session's functions it may call only status().
+  // If set, it is called when status() has changed. It may call no function of the session except status().
   // Programs with threads may call status() repeatedly instead.
   std::function<void()> changed = {};
 };
@@ -66,22 +65,22 @@ class Session {
   Session();
   ~Session();  // cancels the running preparation and waits for its end
 
-  // Prepares a model in the background. A newer call cancels an older one, whose end is then not reported.
-  // The previous model stays until the new one is ready; if the preparation fails, it stays for good.
+  // Prepares a model in the background. A newer call cancels an older preparation, whose end is then not
+  // reported. The previous model stays until the new one is ready, or for good if the preparation fails.
   void open(Preparation preparation);
 
-  // Cancels the preparation that is running or waiting, if any. status() reports that immediately. The
-  // preparation ends when it next checks its Progress, and only then does the next one begin. If there is no
-  // model yet, the points are freed.
+  // Cancels the preparation that is running or waiting, if any. status() reports the cancellation
+  // immediately. The preparation ends when it next checks its Progress, and only then does the next one
+  // begin. If there is no model yet, the points are freed.
   void cancel();
 
   // Returns a coarse relief, in another view, of the points that were prepared last. It is shown while the
   // view changes; open() prepares the final view. It is made in the calling thread, in a few hundredths of a
   // second. The first call for a cropped cloud or a mesh takes longer, because it also measures the points of
-  // all sides. A newer turn(), and cancel(), cancel this call. turn() does not cancel a preparation, and
-  // open() does not cancel turn(), because a call may come late, when the final view is already being
-  // prepared. Errors: kind geometry if no points have been measured yet, or if the view shows no area; kind
-  // cancelled.
+  // all sides. A newer call of turn() and a call of cancel() cancel this call. turn() does not cancel a
+  // preparation, and open() does not cancel turn(), because a call may come late, when the final view is
+  // already being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows
+  // no area; kind cancelled.
   Result<ShownModel> turn(const View& view);
 
   SessionStatus status() const;

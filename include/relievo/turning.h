@@ -1,5 +1,5 @@
-// Coarse reliefs for display while a model is turned. They have about 18,000 points, take a few hundredths of
-// a second, and are shaded by the normals of all points of the scan.
+// Makes coarse reliefs for display while a model is turned. They have about 18,000 points, take a few
+// hundredths of a second, and are shaded by the normals of all points of the scan.
 #pragma once
 
 #include <memory>
@@ -11,13 +11,13 @@ namespace relievo {
 
 class MeasuredCloud;
 
-// A model for display. The model of a turned relief has fewer points than the scan; with its detail, its
-// relief looks like a relief of ReliefModel::prepare() in the same view.
+// A model for display. The model of a turned relief has fewer points than the scan. Drawn with `detail`, its
+// relief looks like a relief of all points in the same view.
 struct ShownModel {
   std::shared_ptr<const ReliefModel> model;
   std::shared_ptr<const SurfaceDetail> detail = nullptr;  // normals finer than the points, for Shown::detail
-  // The scan's sampling distance divided by the model's. The boundary width of a shape is in sampling
-  // distances, so it must be multiplied by this ratio.
+  // The scan's sampling distance divided by the model's. Shape::boundary_width is in sampling distances, so
+  // it must be multiplied by this ratio.
   double spacing_ratio = 1;
 };
 
@@ -31,9 +31,9 @@ class Turntable {
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 
-  // Returns the relief of a view. `like` is a model of the same scan in another view, or null. If it has a
-  // support plane and the view shows none, the points of that plane are left out. Errors: kind geometry if the
-  // view shows no area; kind cancelled.
+  // Returns the relief of a view. `like` is a model of the same scan in another view, or null. If `like` has
+  // a support plane and View::has_plane is false, the points of that plane are left out. Errors: kind
+  // geometry if the view shows no area; kind cancelled.
   Result<ShownModel> turn(const View& view, const ReliefModel* like, Progress* progress = nullptr) const;
 
  private:

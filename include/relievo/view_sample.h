@@ -1,4 +1,4 @@
-// The points for the relief of a view, and notes on how they were sampled.
+// Describes the points for the relief of a view, and how they were sampled.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ struct Cloud;
 // A step that changed the points of a model.
 struct SampleNote {
   enum class Kind {
-    outliers,           // `points` far from the middle were left out
-    repeated,           // `points` repeats of other points were left out
+    outliers,           // `points` points far from the middle were left out
+    repeated,           // `points` points were left out because they repeat other points
     estimated_normals,  // normals were estimated, because the model has none
     turned_normals,     // normals were reversed, because they point inwards
     mesh,               // `points` points were sampled from a mesh of `of` triangles

@@ -1,4 +1,4 @@
-// Disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving.
+// Implements disjoint sets of the integers 0 to n - 1 (union-find), with union by size and path halving.
 #pragma once
 
 #include <numeric>
@@ -21,7 +21,6 @@ class DisjointSets {
     return i;
   }
 
-  // Unites the sets of a and b.
   void join(Index a, Index b) {
     a = find(a), b = find(b);
     if (a == b) return;
@@ -30,7 +29,6 @@ class DisjointSets {
     size_[a] += size_[b];
   }
 
-  // Returns the size of the set that contains i.
   std::size_t size_of(Index i) { return size_[find(i)]; }
 
  private:

@@ -1,4 +1,4 @@
-// Items grouped by an index, such as the triangles around each point, stored in two arrays.
+// Groups items by an index, such as the triangles around each point, and stores them in two arrays.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The lowest and the highest of a set of heights.
+// Finds the lowest and the highest of a set of heights.
 #pragma once
 
 #include <array>

@@ -35,7 +35,8 @@ std::string json_error_place(std::string_view text) {
   if (nlohmann::json::sax_parse(text, &finder)) return {};
   const std::string_view before = text.substr(0, finder.at > 0 ? std::min(finder.at - 1, text.size()) : 0);
   const auto lines = std::ranges::count(before, '\n');
-  const std::size_t column = before.size() - (before.rfind('\n') + 1);  // npos + 1 is 0
+  // Without a line break, rfind() returns npos, and npos + 1 is 0.
+  const std::size_t column = before.size() - (before.rfind('\n') + 1);
   return "line " + std::to_string(lines + 1) + ", column " + std::to_string(column + 1);
 }
 

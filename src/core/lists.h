@@ -32,7 +32,6 @@ std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
   return found;
 }
 
-// Returns the numbers from 0 to n - 1.
 inline std::vector<Index> all_indices(std::size_t n) {
   std::vector<Index> all(n);
   std::iota(all.begin(), all.end(), Index{0});
@@ -46,7 +45,6 @@ inline std::vector<Index> places_in(std::span<const Index> listed, std::size_t n
   return place;
 }
 
-// Appends the elements of another list.
 template <typename T, typename List>
 void append(std::vector<T>& to, const List& from) {
   to.insert(to.end(), from.begin(), from.end());

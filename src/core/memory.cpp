@@ -15,12 +15,12 @@ LargeArray make_large_array(std::size_t floats) {
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   void* array = std::aligned_alloc(alignment, rounded);
   if (array == nullptr) {
-    // A program may have set a handler that ends it cleanly; operator new calls that handler, too.
+    // The program may have set a handler that ends it cleanly. operator new calls that handler, too.
     if (const std::new_handler handler = std::get_new_handler()) handler();
     throw std::bad_alloc();
   }
 #if defined(__linux__)
-  // Only a request: if the system refuses it, reading is merely slower.
+  // madvise() is only a request: if the system refuses it, reading is merely slower.
   if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));
 #endif
   return LargeArray(static_cast<float*>(array));

@@ -1,4 +1,4 @@
-// The memory that a vector has allocated, and storage for large arrays that are read from front to back.
+// Counts the memory that a vector has allocated, and allocates large arrays that are read from front to back.
 // Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 

@@ -69,9 +69,8 @@ struct Job {
   bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
-// The worker threads, which sleep between jobs and process one job at a time. Meanwhile another caller
-// processes its own job alone until the workers are free, so that a picture need not wait for a job of half a
-// second.
+// The worker threads, which sleep between jobs and process one job at a time. While the workers are busy,
+// another caller processes its own job alone. So a picture need not wait for a job of half a second.
 class Pool {
  public:
   static Pool& instance() {
@@ -125,7 +124,7 @@ class Pool {
     }
   }
 
-  // Passes the job to the workers, unless they have another one.
+  // Passes the job to the workers, unless they are processing another job. Returns whether it did.
   bool try_give(Job& job) {
     const std::lock_guard lock(mutex_);
     if (job_) return false;

@@ -1,4 +1,4 @@
-// The implementation of parallel.h for systems without threads.
+// Implements parallel.h for systems without threads.
 #include "relievo/core/parallel.h"
 
 namespace relievo {

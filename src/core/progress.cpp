@@ -22,7 +22,7 @@ Error memory_error(const MemoryNeed& need) noexcept {
   try {
     error.expected = words_of(need);
   } catch (const std::bad_alloc&) {
-    error.expected = "expected memory";  // short enough for a string without allocation
+    error.expected = "expected memory";  // this text is short enough to need no allocation
   }
   return error;
 }

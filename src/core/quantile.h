@@ -1,4 +1,4 @@
-// Order statistics. These functions take linear time, and reorder their argument, which must not be empty.
+// Computes order statistics, in linear time. The functions reorder their argument, which must not be empty.
 #pragma once
 
 #include <algorithm>

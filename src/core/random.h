@@ -1,4 +1,4 @@
-// Random numbers that are the same on every platform.
+// Generates random numbers that are the same on every platform.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,6 @@ class SplitMix64 {
  public:
   explicit SplitMix64(std::uint64_t seed) : state_(seed) {}
 
-  // Returns the next 64 random bits.
   std::uint64_t bits() {
     std::uint64_t z = state_ += step;
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
@@ -21,7 +20,6 @@ class SplitMix64 {
   // Returns a uniformly distributed number in [0, 1), with 53 random bits.
   double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-  // The increment of the state.
   static constexpr std::uint64_t step = 0x9E3779B97F4A7C15U;
 
  private:

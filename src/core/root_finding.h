@@ -1,4 +1,4 @@
-// Root finding for functions of one variable.
+// Finds roots of functions of one variable.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,8 @@ namespace relievo {
 // is a finite double. If it does not, the returned x is just outside that range, and f(x) is not near 0.
 //
 // Increasing steps from 0 bracket the root. Then the Illinois variant of false position narrows the bracket:
-// if an end stays, its value of f is halved. If 8 steps are not enough, every other step is a bisection.
+// if an end of the bracket stays, its value of f is halved. If 8 steps are not enough, every other step is a
+// bisection.
 template <typename F>
 double find_root(F&& f, double tolerance) {
   double a = 0, fa = f(a);

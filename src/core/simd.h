@@ -1,10 +1,9 @@
-// Vectors of a fixed width, the same on every processor, and the choice of instructions at run time.
-// Tested by tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp,
-// HasTheSameBitsWithAndWithoutWideVectors.
+// Defines vectors whose width is the same on every processor, and chooses instructions at run time. Tested by
+// tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
-// GCC warns that passing such a vector to a function depends on the instruction set. All our functions with
-// vectors are inlined.
+// GCC warns that the way in which such a vector is passed to a function depends on the instruction set. This
+// does no harm, because all our functions with vectors are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace relievo {
@@ -24,7 +23,7 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Returns the sum of the four, in the same order everywhere.
+// Returns the sum of the four numbers, which are added in the same order on every processor.
 RELIEVO_INLINE double total(const Double4& four) {
   return (four[0] + four[1]) + (four[2] + four[3]);
 }

@@ -1,4 +1,4 @@
-// The brightness and the means of sRGB colours.
+// Computes the brightness and the means of sRGB colours.
 #pragma once
 
 #include <algorithm>

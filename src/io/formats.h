@@ -1,5 +1,5 @@
-// All known file formats: supported formats, and others that errors can name. A new format needs a source
-// file that defines the two functions declared here, and an entry in `formats`.
+// Lists all known file formats: supported formats, and others that errors can name. A new format needs a
+// source file that defines the two functions declared here, and an entry in `formats`.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace relievo::io {
 
-// Return whether the content or, if that is not decisive, the name shows that the file has this format.
-// `source` may be only the beginning of a file.
+// Return whether the file has this format. This is decided by the content or, where the content does not show
+// it, by the name. `source` may be only the beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
 bool is_laz(const Source& source);
@@ -28,8 +28,8 @@ bool is_obj(const Source& source);
 bool is_ptx(const Source& source);
 bool is_text(const Source& source);
 
-// Return the content of a file, with as many points as the file has. Errors: kind input. These parts of the
-// formats are read:
+// Return the content of a file, with as many points as the file has; points that are left out become NaN.
+// Errors: kind input. These parts of the formats are read:
 //
 // - PLY: ascii, binary little-endian and big-endian; x y z, nx ny nz and red green blue of any numeric type,
 // in any order, among any other properties and elements. Of the other elements, `face` and `tristrips` are
@@ -37,37 +37,38 @@ bool is_text(const Source& source);
 //   Vertices with opacity, f_dc, scale and rot are Gaussian splats. f_dc determines their colours; splats
 //   that are less than half opaque are left out. The splats of a .splat file are read in the same way.
 // - OBJ: v (also with weights and colours), vn and f, and the colours of ZBrush (#MRGB). The normal of a
-// vertex is the mean of the normals that faces give it. If no face refers to any normal, it is the vn with
-// the same index. Faces may refer to missing normals. Vertices without colours get those of map_Kd, whose
-// picture may have any format that is read as depths.
+// vertex is the mean of the normals that its faces refer to. If no face refers to any normal, it is the vn
+// with the same index. Faces may refer to missing normals. If vertices have no colours, they get those of the
+// textures (map_Kd). A texture may have any format that is read as depths.
 // - STL, binary and ascii: coincident corners are merged; the file's normals are ignored.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
-// - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the
-// scene, transformed by its nodes or posed by their skins; without nodes, those of all meshes. Vertices
-// without colours get those of the base colour texture. Numbers may be quantised, and compressed by
-// EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
+// - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it. The triangles and points of the scene
+// are read, transformed by the scene's nodes or posed by their skins. A file without nodes gives the
+// triangles and points of all meshes. Vertices without colours get those of the base colour texture. Numbers
+// may be quantised, and compressed by EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
 // - 3MF: the meshes of the build, transformed as the build and components specify, with the colours of base
 // materials and colour groups, but without textures. The file is the XML document in the archive; other
 // documents are found beside it.
 // - PCD: ascii (also with commas between the numbers), binary and binary_compressed; x y z, normal_x normal_y
 // normal_z and rgb.
-// - LAS 1.0 to 1.5, with colours. A file with fewer points than promised is read to its end. So is LAZ,
-// which is LAS compressed by LASzip 2 or later. Points of the classes 7 and 18 (noise) and withheld points are left
-// out.
+// - LAS 1.0 to 1.5, with colours. A file with fewer points than its header promises is read to its end. LAZ,
+// which is LAS compressed by LASzip 2 or later, is read in the same way. Points of the classes 7 and 18
+// (noise) and withheld points are left out.
 // - E57: all scans with cartesian or spherical coordinates, transformed by their poses; with colours and
 // normals if all scans have them. Points that the file marks as invalid are NaN. Every checksum must be
 // right.
-// - NPY: arrays of N x 3 to N x 9 fractions are points: x y z, then normals and colours as in XYZ. Arrays of
-// H x W x 3 are organised clouds, and V x H x W x 3 several of them. Other arrays are depth images.
+// - NPY: arrays of N x 3 numbers, or N x 4 to N x 9 floating-point numbers, are points: x y z, then normals
+// and colours as in XYZ. An array of H x W x 3 is an organised cloud, and one of V x H x W x 3 is V organised
+// clouds. Other arrays are depth images.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
-//   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
-//   to 255 or of fractions from 0 to 1 are colours. A first line with the number of points is allowed (more
-//   points may follow, but not fewer; in PTS another number and its points may), and so are comments (#, //)
-//   and a line of column names, which then decide. Other columns may contain anything. Numbers have a
-//   decimal point, or a decimal comma if semicolons separate them; they may be in quotation marks. Two
-//   columns of whole numbers before three of fractions are a scanner's rows and columns, and x y z come
-//   third. A first column that numbers the points is skipped.
-// - PTX: all scans, moved by their matrices. Points at 0 0 0 of their scanner are not measured.
+//   first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of integers
+//   from 0 to 255 or of fractions from 0 to 1 are colours. A line of column names, if there is one,
+//   determines the columns instead. Other columns may contain anything. A first line with the number of
+//   points is allowed: more points may follow, but not fewer, and in PTS another number with its points.
+//   Comments (#, //) are allowed. Numbers have a decimal point, or a decimal comma if semicolons separate
+//   them; they may be in quotation marks. If two columns of integers precede three of fractions, they are a
+//   scanner's rows and columns, and the next three are x y z. A first column of point numbers is skipped.
+// - PTX: all scans, transformed by their matrices. Points at their scanner's origin count as not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_laz(const Source& source);
@@ -97,7 +98,7 @@ struct Format {
   Content content;
   bool (*is_format)(const Source&);
   Result<RawCloud> (*read)(const Source&);
-  // Null if files are always read as a whole.
+  // Finds the rows for reading block by block; null if files are always read as a whole.
   Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;
 };
 
@@ -119,15 +120,14 @@ inline constexpr std::array formats = {
     Format{"PTX", ".ptx", Content::points, is_ptx, read_ptx},
     Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
 
-// An unsupported format that errors can name, and what users can do instead.
+// An unsupported format that errors can name, together with advice for users.
 struct ForeignFormat {
-  std::string_view mark;  // text in the content, or ending of the name
+  std::string_view mark;  // text in the content, or extension of the name
   std::string_view what;  // for messages
   std::size_t at = 0;     // position of the mark in the content
 };
 
-// Formats that are recognised by the ending of the name, because their content is often only recognisable as
-// an archive.
+// Formats that are recognised by the name's extension, because the content of most is just an archive.
 inline constexpr std::array foreign_names = {
     ForeignFormat{".spz", "packed Gaussian splats (SPZ); SuperSplat exports them as PLY"},
     ForeignFormat{".ksplat", "packed Gaussian splats (KSPLAT); SuperSplat exports them as PLY"},

@@ -1,4 +1,4 @@
-// The arrays that NumPy saves (NPY, versions 1 to 3), which are depth images or points.
+// Reads arrays that NumPy saves (NPY, versions 1 to 3). They are depth images or points.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@ struct NpyArray {
 
   unsigned bytes_per_number() const { return samples.bits / 8; }
 
-  // Returns whether the array is a list of points, one or several pictures of points, and not a picture: its last
-  // dimension has 3 numbers, or its rows are many and have at most 9 fractions. Unsigned numbers in more than two
-  // dimensions are colours.
+  // Returns whether the array has points instead of depths. Points are an array whose last dimension has 3
+  // numbers, or a two-dimensional array with up to 9 columns of floating-point numbers and at least 16 times
+  // as many rows. Unsigned integers in more than two dimensions are colours, not points.
   bool has_points() const;
 
-  // Returns number `column` of the last dimension in row `row`; rows are counted through all other dimensions,
-  // of which the last one runs fastest.
+  // Returns number `column` of the last dimension in row `row`; rows are counted through all other
+  // dimensions, and the last of these changes fastest.
   template <typename Number>
   Number number(const Source& source, std::size_t row, std::size_t column) const {
     const char* const from = source.bytes.data() + data + bytes_per_number() * place(row, column);
@@ -37,11 +37,10 @@ struct NpyArray {
   std::size_t place(std::size_t row, std::size_t column) const;
 };
 
-// Returns whether the content begins like an array of NumPy.
 bool has_npy_mark(const Source& source);
 
-// Returns the array's header. Errors: kind input for a header that is cut, numbers that are not real, and a
-// shape that is not a list of sizes.
+// Returns the array's header. Errors: kind input for a truncated header, for a type that is not a real
+// number, and for a shape that is not a list of sizes.
 Result<NpyArray> read_npy_header(const Source& source);
 
 }  // namespace relievo::io

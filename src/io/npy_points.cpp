@@ -1,5 +1,5 @@
-// Reads NumPy's arrays of points: rows of coordinates, and pictures with a point in each pixel, as estimators of
-// points write them. Tested by tests/io/npy_test.cpp.
+// Reads NumPy's arrays of points: rows of coordinates, and pictures with a point in each pixel, which
+// programs that estimate points from photographs write. Tested by tests/io/npy_test.cpp.
 #include <algorithm>
 
 #include "io/formats.h"
@@ -11,7 +11,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns the number of points, which are all numbers but those of the last dimension. Errors: the file has fewer.
+// Returns the number of points: the product of all sizes but the last. Error: the file has fewer points.
 Result<std::size_t> count_rows(const Source& source, const NpyArray& array) {
   const std::size_t room = source.bytes.size() - array.data;
   const std::size_t row_bytes = array.bytes_per_number() * array.sizes.back();
@@ -37,7 +37,7 @@ std::vector<std::vector<double>> rows_among(const Source& source, const NpyArray
   return some;
 }
 
-// Returns an error for pictures with normals or colours, which have three numbers per pixel, too.
+// Returns an error if the pixels of pictures are normals or colours, which also have three numbers.
 Result<void> check_pictures(const Source& source, const std::vector<std::vector<double>>& rows) {
   const std::string_view found = are_unit_vectors(rows, 0) ? "normals"
                                  : are_colours(rows, 0)    ? "colours"

@@ -25,11 +25,11 @@ std::size_t size_in_bytes(NumberType type);
 // Returns the integer from 0 to 255 that is nearest to the value; 0 for NaN.
 std::uint8_t as_byte(double value);
 
-// Returns colours as bytes. Their range is 1, 255 or 65535, the least that contains the largest value.
-// Returns no colours if the largest value exceeds 65535.
+// Returns colours as bytes. The values are from 0 to 1, 255 or 65535: the smallest of these limits that
+// contains the largest value. Returns no colours if the largest value exceeds 65535.
 std::vector<Colour> colours_in_bytes(const std::vector<Vec3f>& values);
 
-// Decodes `rows` values at a distance of `stride` bytes.
+// Decodes `rows` values that are `stride` bytes apart.
 using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows, double* values);
 
 Decode decoder(NumberType type, bool is_big_endian);
@@ -79,8 +79,8 @@ struct StreamRecords {
   Records records;
   std::string format;              // for messages
   std::uint64_t faces = 0;         // number of faces of a mesh, which are not read
-  bool may_end_early = false;      // true if a file with fewer rows than promised is read to its end
-  std::uint64_t missing_rows = 0;  // number of rows missing at the end of the file
+  bool may_end_early = false;      // whether a file with fewer rows than promised is read to its end
+  std::uint64_t missing_rows = 0;  // number of rows that the file promises but does not contain
 };
 
 // Returns a cloud of `points` uninitialised points, with normals and colours if the records have them.
@@ -91,7 +91,6 @@ Cloud sized_cloud(const Records& records, std::size_t points);
 void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                  std::size_t begin);
 
-// Returns the number of rows that are left out.
 std::size_t count_left_out(const Records& records, const char* first, std::size_t rows);
 
 // Decodes all rows, concurrently. `first` points to the first row.

@@ -71,7 +71,7 @@ class ObjReader {
     return true;
   }
 
-  // Returns the line without its keyword. It is a name that may contain blanks.
+  // Returns the line without its keyword. The rest is a name that may contain blanks.
   std::string_view rest_of(std::string_view keyword) const {
     const std::string_view line = trim(before_comment(line_));
     return trim(line.substr(keyword.size()));
@@ -90,8 +90,9 @@ class ObjReader {
     return {};
   }
 
-  // Reads a vertex, and the colour that may follow its coordinates. A single number there is a weight. Of four
-  // numbers, the first is a weight if it is 1 in all vertices; otherwise the last is an opacity.
+  // Reads a vertex, and the colour that may follow its coordinates. A single number after them is a weight.
+  // If four numbers follow, the first is a weight if it is 1 in all vertices; otherwise the last is an
+  // opacity.
   Result<void> take_vertex(Words& words) {
     RELIEVO_CHECK(take_vector(words, points_));
     std::array<float, 4> values = {};
@@ -106,8 +107,8 @@ class ObjReader {
     return {};
   }
 
-  // Reads colours that ZBrush writes as comments: after '#MRGB ' eight hexadecimal digits for each vertex, of which the
-  // first two are a mask.
+  // Reads colours that ZBrush writes as comments: after '#MRGB ' two hexadecimal digits each for a mask, red,
+  // green and blue of every vertex.
   void take_painted(std::string_view line) {
     constexpr std::string_view keyword = "#MRGB ";
     if (!line.starts_with(keyword)) return;
@@ -228,10 +229,10 @@ class ObjReader {
   SourceLines lines_;
   std::string_view line_;
   std::string joined_;
-  std::size_t first_line_ = 0;  // number of the first line of line_
+  std::size_t first_line_ = 0;  // number of the first line of the text in line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  // The colours that follow coordinates, that follow coordinates and a weight of 1, and that stand in comments.
+  // Colours of vertices: after the coordinates, after the coordinates and a weight of 1, and in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // all faces

@@ -10,7 +10,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns the file in the folder of the OBJ; nothing if it cannot be read or is elsewhere.
+// Returns a file in the folder of the OBJ; nothing if the file cannot be read or is not in that folder.
 std::optional<std::string> file_beside(const Source& source, std::string name) {
   std::ranges::replace(name, '\\', '/');
   if (!source.beside || name.empty() || name.starts_with('/') || name.contains("..") || name.contains(':'))
@@ -20,13 +20,13 @@ std::optional<std::string> file_beside(const Source& source, std::string name) {
   return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
 }
 
-// Returns the file name in a map_Kd line, where options and their numbers may precede it.
+// Returns the file name in a map_Kd line. Options with their numbers may precede the name.
 std::string picture_name(std::string_view line) {
   if (!line.starts_with('-')) return std::string(line);
   return std::string(line.substr(line.find_last_of(" \t") + 1));
 }
 
-// Returns the picture names by material.
+// Returns the names of the textures by material.
 std::map<std::string, std::string> pictures_in(std::string_view library) {
   std::map<std::string, std::string> pictures;
   std::string material;

@@ -1,4 +1,4 @@
-// The textures of an OBJ file: materials are in files beside it, and refer to pictures.
+// Reads the textures of an OBJ file. Its materials are in files beside it, and refer to pictures.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace relievo::io {
 // Processes the lines of an OBJ that concern textures, and determines a colour per vertex.
 class ObjTextures {
  public:
-  void take_coordinates(Words& words);          // vt
-  void take_libraries(std::string_view names);  // mtllib
-  void take_material(std::string_view name);    // usemtl: material of the following faces
+  void take_coordinates(Words& words);          // reads a vt line
+  void take_libraries(std::string_view names);  // reads an mtllib line
+  void take_material(std::string_view name);    // reads a usemtl line, for the following faces
   // `vertex` is the vertex of a face's corner; `word` is the rest of the corner, such as "/2/3". A vertex
   // gets the colour of its first corner that has a texture.
   void take_corner(Index vertex, std::string_view word);

@@ -200,7 +200,7 @@ class BinaryOffReader {
     RELIEVO_TRY(const std::size_t vertices, take_count("vertices"));
     RELIEVO_TRY(const std::size_t faces, take_count("faces"));
     RELIEVO_TRY(const std::size_t edges, take_count("edges"));
-    (void)edges;  // edges follow from the faces
+    (void)edges;  // not needed, because the faces determine the edges
     const Records records = rows_of(vertices);
     if (vertices > left() / records.stride)
       return fail(

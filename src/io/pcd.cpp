@@ -15,7 +15,6 @@
 namespace relievo::io {
 namespace {
 
-// The encodings of the points in a PCD file.
 enum class PcdData { ascii, binary, compressed };
 
 struct PcdHeader {
@@ -23,7 +22,7 @@ struct PcdHeader {
   Records records;                       // layout of the points; ascii files use only `count`
   std::vector<std::size_t> field_sizes;  // bytes of each field of a point
   std::size_t lines = 0;                 // lines of the header
-  std::size_t columns_of_picture = 0;    // 0 if the points are no picture
+  std::size_t columns_of_picture = 0;    // columns of an organised cloud, else 0
   // For ascii rows: the number of words, and the indices of the words to read.
   std::size_t columns = 0;
   std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
@@ -36,7 +35,7 @@ struct Field {
   std::size_t size = 4, count = 1;  // bytes per value; values per point
   char type = 'F';
   std::size_t at = 0;      // byte offset within a row
-  std::size_t column = 0;  // index of its first value within a row
+  std::size_t column = 0;  // index of the field's first value within a row
 };
 
 class PcdHeaderReader {
@@ -73,7 +72,7 @@ class PcdHeaderReader {
     if (keyword == "HEIGHT") return take_count(words, height_);
     if (keyword == "POINTS") return take_count(words, points_);
     if (keyword == "DATA") return take_data(words.next());
-    // Some programs add lines of their own, whose keywords also consist of capitals.
+    // Some programs add lines of their own. These are ignored if their keywords consist of capitals.
     const auto is_capital = [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; };
     if (std::ranges::all_of(keyword, is_capital)) return {};
     return lines_.fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
@@ -127,7 +126,7 @@ class PcdHeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    // If it fits, the product of width and height does not overflow.
+    // Divides instead of multiplying, because the product of width and height could overflow.
     const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})

@@ -14,11 +14,11 @@ constexpr std::array<std::string_view, VertexColumns::most> column_names = {
     "x",       "y",       "z",       "nx",      "ny",    "nz",    "red",   "green", "blue",
     "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2", "rot_3"};
 
-// The colours of Gaussian splats.
+// The properties of Gaussian splats that determine their colours.
 constexpr std::array<std::string_view, 3> harmonic_names = {"f_dc_0", "f_dc_1", "f_dc_2"};
 
-// Returns the index of the property with that name or, if there is none, with that name in another case, such
-// as X. Returns the number of properties if there is none, either.
+// Returns the index of the property with that name. If there is none, upper and lower case count as equal. If
+// there is still none, returns the number of properties.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
   const auto& all = element.properties;
   auto found = std::ranges::find(all, name, &PlyProperty::name);
@@ -41,14 +41,14 @@ bool is_number(const PlyElement& element, std::size_t property) {
   return property < element.properties.size() && !element.properties[property].is_list();
 }
 
-// If the vertex is a Gaussian splat, uses f_dc as its colours, unless it has others. If not, ignores opacity,
-// whose meaning is then unknown.
+// If the vertices are Gaussian splats without other colours, uses f_dc as their colours. If they are not
+// splats, ignores their opacity, because its meaning is unknown.
 void take_splat(const PlyElement& vertex, VertexColumns& columns) {
   std::array<std::size_t, harmonic_names.size()> places = {};
   std::ranges::transform(harmonic_names, places.begin(),
                          [&](auto name) { return find_property(vertex, name); });
   const std::span splat = std::span(columns.is_there).subspan(9);
-  // Splats have opacity, rotation and three scales; flat ones have no scale_2 (the fourth of these columns).
+  // Splats have opacity, three scales and a rotation, from column 9 on. Flat splats lack scale_2, column 12.
   const bool is_splat =
       std::ranges::count(splat, false) <= (columns.is_there[12] ? 0 : 1) && !has_lists(vertex) &&
       std::ranges::all_of(places, [&](std::size_t place) { return is_number(vertex, place); });
@@ -104,7 +104,7 @@ Result<std::vector<PlyElement>::const_iterator> find_vertex(const Source& source
   return source.error_in_line(header.lines, "expected an element vertex before end_header, found none");
 }
 
-// Returns where a column is in the rows of vertices, which have no lists.
+// Returns the location of a column in the rows of vertices, which have no lists.
 RecordColumn column_of(const PlyElement& vertex, const VertexColumns& wanted, std::size_t c) {
   const auto& properties = vertex.properties;
   const NumberType type = properties[wanted.property[c]].type;
@@ -113,7 +113,7 @@ RecordColumn column_of(const PlyElement& vertex, const VertexColumns& wanted, st
   return found;
 }
 
-// Adds to the records what Gaussian splats have besides points: opacity, scales and rotation.
+// Adds the parts of Gaussian splats that points do not have: opacity, scales and rotation.
 void add_splats(const PlyElement& vertex, const VertexColumns& wanted, Records& records) {
   std::array<RecordColumn, VertexColumns::most> columns;
   for (std::size_t c = 9; c < columns.size(); ++c)
@@ -217,8 +217,8 @@ Result<StreamRecords> find_ply_rows(const Source& head) {
                                 cat("expected a number of rows that fits the file, found ", element->count));
     records.offset += size * element->count;
   }
-  if (columns.has_opacity()) records.normal.reset();  // most splats state zeros as their normals
-  records.axis = nullptr;                             // means of points need signs
+  if (columns.has_opacity()) records.normal.reset();  // most splats have zeros as normals
+  records.axis = nullptr;                             // axes have no signs, so they have no mean
   std::uint64_t faces = 0;
   for (const PlyElement& element : elements)
     if (find_face_list(element)) faces += element.count;

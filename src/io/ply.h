@@ -33,7 +33,7 @@ struct PlyElement {
   std::size_t line = 0;  // line of its declaration
 };
 
-// Returns the smallest possible size of a binary row in bytes, which is that with empty lists.
+// Returns the smallest possible size of a binary row in bytes: its size if all lists are empty.
 std::size_t least_row_size(const PlyElement& element);
 
 // Returns whether any property is a list, so that rows differ in size.
@@ -41,7 +41,7 @@ bool has_lists(const PlyElement& element);
 
 enum class PlyFormat { ascii, little_endian, big_endian };
 
-// Views point into the source.
+// The header of a PLY file. Its texts are views of the source.
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
@@ -58,13 +58,13 @@ constexpr bool is_faint(double opacity) {
 }
 
 // The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
-// exist. Of Gaussian splats, f_dc_0 to f_dc_2 are the colours, and opacity, scale_0 to scale_2, of which flat
-// splats have two, and rot_0 to rot_3 are read, too.
+// exist. Gaussian splats also have opacity, scale_0 to scale_2 (flat splats only scale_0 and scale_1), and
+// rot_0 to rot_3; their colours are f_dc_0 to f_dc_2.
 struct VertexColumns {
   static constexpr std::size_t most = 17;
   std::array<bool, most> is_there = {};
   std::array<std::size_t, most> property = {};  // per column: index of the property that is read into it
-  bool are_colours_harmonics = false;           // f_dc instead of red, green and blue
+  bool are_colours_harmonics = false;           // whether the colours are f_dc instead of red, green and blue
   bool keeps_faint = false;                     // whether splats that are less than half opaque are kept
 
   bool has_normals() const { return is_there[3]; }
@@ -97,7 +97,7 @@ Result<PlyContent> read_binary_body(const PlyBody& body);
 // Returns the layout of vertices without lists as records; their offset is 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// Returns the column of a colour, scaled to [0, 255], without its offset.
+// Returns a colour's column: its type, and its scale to [0, 255]. The caller sets its offset.
 RecordColumn colour_column(const VertexColumns& columns, NumberType type);
 
 // The list property with the vertices of a face.

@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// Two names per type, in the order of NumberType.
+// The names of the number types, two for each type, in the order of NumberType.
 constexpr std::array<std::string_view, 16> type_names = {
     "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
     "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};

@@ -82,7 +82,6 @@ class AsciiRows {
     return {};
   }
 
-  // Begins the rows of the next element.
   Result<void> begin(const PlyElement&) {
     rows_ = 0;
     return {};
@@ -226,7 +225,6 @@ class BinaryRows {
     return {};
   }
 
-  // Appends the corners of the face in the next row.
   Result<void> read_face(const PlyElement& element, const FaceList& list,
                          std::vector<std::int64_t>& corners) {
     const NumberType type = element.properties[list.property].type;

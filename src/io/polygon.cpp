@@ -1,7 +1,7 @@
 // Triangulates by ear clipping. For any sequence of clipped triangles, the signed areas sum up to the
 // polygon's area, and the winding numbers at any point sum up to the polygon's winding number. So if no
 // triangle is turned over and the polygon does not intersect itself, the triangles cover its inside exactly
-// once. The tests for ears only help to find such a sequence.
+// once. Therefore the tests for ears need not be exact; they only help to find such a sequence.
 #include "io/polygon.h"
 
 #include <Eigen/Geometry>

@@ -38,7 +38,7 @@ void for_each_triangle(std::span<const Vec3> corners, Add&& add) {
 enum class FaceKind { polygon, strip, fan };
 
 // Appends the triangles of a face, whose corners are indices of points. For a polygon see triangulate(). In a
-// strip every second triangle is reversed, and -1 begins a new strip. A fan consists of triangles with the
+// strip every second triangle is reversed, and -1 begins a new strip. All triangles of a fan contain its
 // first corner. Triangles with two equal corners are left out. Returns false, and appends nothing, if a
 // corner is not the index of a point.
 bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,

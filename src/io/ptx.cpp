@@ -48,7 +48,7 @@ class PtxReader {
     return line;
   }
 
-  // `line` is the first line of the header.
+  // Reads the header of a scan; `line` is its first line.
   Result<void> take_header(std::string_view line) {
     std::int64_t columns = 0, rows = 0;
     RELIEVO_CHECK(take_count(line, columns));

@@ -53,8 +53,8 @@ void smooth(io::RawCloud& raw, bool keeps_blur) {
 // to the model.
 constexpr std::size_t most_at_origin = 16;
 
-// Returns the number of points at 0, 0, 0 that count as not measured. It is 0 for a mesh, and if most points
-// are there.
+// Returns the number of points at 0, 0, 0 that count as not measured. It is 0 for a mesh, for at most 16
+// points there, and if all points are there.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
@@ -100,9 +100,9 @@ std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// Estimates the size of a scan with 20 bytes per point, which gives rather too many points than too few. A
-// text with three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles per
-// vertex has about 60 bytes per vertex, a glTF 36.
+// Estimates the size of a scan from 20 bytes per point. The estimate is more often too large than too small.
+// A text with three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles
+// per vertex has about 60 bytes per vertex, a glTF 36.
 ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
   constexpr std::uint64_t bytes_per_point = 20;
   ScanSize size{file_bytes / bytes_per_point, 0, 0};
@@ -127,7 +127,7 @@ ScanSize ply_size(const io::PlyHeader& header, std::uint64_t file_bytes) {
   return size;
 }
 
-// Returns the number of pixels according to the beginning of a picture; 0 if it does not contain it.
+// Returns the number of pixels that the beginning of a picture states; 0 if it does not state the number.
 std::uint64_t stated_pixels(const io::Source& head) {
   if (io::is_png(head) && head.bytes.size() >= 24)
     return big_endian_32(head.bytes, 16) * big_endian_32(head.bytes, 20);

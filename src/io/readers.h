@@ -1,4 +1,4 @@
-// The types and functions that the readers of all formats share.
+// Declares the types and functions that the readers of all formats share.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@ namespace relievo::io {
 // The bytes of a file, or of its beginning.
 struct Source {
   std::string_view bytes;
-  std::string_view name;                // file name, for messages and for its ending
+  std::string_view name;                // file name, for messages and for its extension
   const FilesBeside* beside = nullptr;  // access to files in the same folder, or null
-  bool keeps_doubtful = false;          // as in ReadOptions
+  bool keeps_doubtful = false;          // see ReadOptions
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
     return input_error(std::string(name), std::move(place), std::move(expected));
@@ -68,13 +68,13 @@ struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; normals are normalised by unit_normal()
   std::string format;  // for messages
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty without triangles
-  std::size_t missing_points = 0;         // number of points missing at the end of the file
+  std::size_t missing_points = 0;         // number of points that the file promises but does not contain
   std::size_t left_out_points = 0;        // number of points left out by leave_out(); they are NaN
-  std::vector<std::string> remarks = {};  // as in CloudFile
+  std::vector<std::string> remarks = {};  // see CloudFile
   std::size_t columns =
-      0;  // columns of the picture whose pixels the points are, row by row; 0 if they are none
+      0;  // number of columns of an organised cloud, whose points are row by row; otherwise 0
 
-  // Counts points that are left out according to the file, and adds a remark.
+  // Counts points that the file says to leave out, and adds a remark. `which` describes these points.
   void leave_out(std::size_t points, std::string_view which) {
     if (points == 0) return;
     left_out_points += points;

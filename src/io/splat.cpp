@@ -41,14 +41,14 @@ Records records_of(std::uint64_t file_bytes, bool keeps_doubtful) {
 }  // namespace
 
 Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation) {
-  constexpr double least_ratio = 1.5;  // of the middle scale and the smallest
+  constexpr double least_ratio = 1.5;  // least ratio of the middle to the smallest scale
   const auto& [w, x, y, z] = rotation;
   const Eigen::Quaterniond turn(w, x, y, z);
   Eigen::Index thinnest = 0;
   const double smallest = log_scales.minCoeff(&thinnest);
   Vec3 others = log_scales;
   others[thinnest] = log_scales.maxCoeff();
-  // Scales of minus infinity are those of flat splats.
+  // The logarithm of the smallest scale may be minus infinity, see no_depth.
   const bool is_flat = others.minCoeff() - smallest >= std::log(least_ratio);
   if (!is_flat || !std::isfinite(turn.norm()) || !(turn.norm() > 0)) return Vec3f::Zero();
   return (turn.normalized() * Vec3::Unit(thinnest)).cast<float>();

@@ -8,12 +8,14 @@
 
 namespace relievo::io {
 
-// The logarithm of the third scale of splats that are flat discs, of which files have only two.
+// The logarithm of the third scale, 0, of splats that are flat discs. Files state only their other two
+// scales.
 constexpr double no_depth = -std::numeric_limits<double>::infinity();
 
-// Returns the unit vector along which a splat is thinnest, with any sign. `log_scales` are the logarithms of its
-// scales, `rotation` is a quaternion w, x, y, z of any length. The result is zero if the two smallest scales
-// are nearly equal, so that the direction means little, and for a rotation that is zero or not finite.
+// Returns the unit vector along which a splat is thinnest. Its sign is arbitrary. `log_scales` are the
+// logarithms of its scales, `rotation` is a quaternion w, x, y, z of any length. The result is zero if the
+// two smallest scales are nearly equal, which makes the direction arbitrary, or if the rotation is zero or
+// not finite.
 Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation);
 
 }  // namespace relievo::io

@@ -25,13 +25,12 @@ class Rows {
 
   const io::Records& records() const { return records_; }
 
-  // Returns how many of the last rows are left out.
+  // Returns how many of the rows that were read last are left out.
   std::size_t left_out() const {
     return io::count_left_out(records_, reinterpret_cast<const char*>(bytes_.data()),
                               bytes_.size() / records_.stride);
   }
 
-  // Decodes `count` rows from row `first` on.
   Result<void> read(std::uint64_t first, std::size_t count, Cloud& to) {
     bytes_.resize(count * records_.stride);
     const auto read = source_.read(records_.offset + first * records_.stride, bytes_);

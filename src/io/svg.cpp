@@ -28,7 +28,7 @@ class PathPen {
  public:
   PathPen(std::string_view data, CurvePolygons& out) : data_(data), out_(out) {}
 
-  // Returns no text, or a message about what was expected and found.
+  // Returns an empty text, or a message that says what was expected and what was found.
   std::string draw() {
     while (skip_space(), at_ < data_.size()) {
       if (std::isalpha(static_cast<unsigned char>(data_[at_])) != 0)
@@ -78,7 +78,7 @@ class PathPen {
     return std::ranges::all_of(to, [&](Vec2& p) { return point(p); });
   }
 
-  // Interprets the next arguments of the command. After a move, further arguments are lines.
+  // Interprets the next arguments of the command. Further arguments after those of a move are lines.
   bool step() {
     const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(command_)));
     const char before = std::exchange(last_, upper);
@@ -111,7 +111,7 @@ class PathPen {
     }
   }
 
-  // A line after a closed outline begins a new one at the same starting point.
+  // A line after a closed outline, without a move, begins a new outline at the same starting point.
   void begin() {
     if (last_ != 'M') out_.continue_at(pen_);
   }
@@ -200,7 +200,7 @@ class PathPen {
   Vec2 pen_ = Vec2::Zero(), start_ = Vec2::Zero(), control_ = Vec2::Zero();
 };
 
-// Returns a property of an element, from its style or from the attribute of that name.
+// Returns the value of a property of an element, which stands in its style or in the attribute of that name.
 std::string_view property(const XmlElement& element, std::string_view name) {
   const std::string_view style = element.attribute("style");
   for (std::size_t at = 0; at < style.size();) {

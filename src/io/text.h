@@ -59,7 +59,6 @@ class Words {
   const char* end_;
 };
 
-// Returns the text without blanks at its ends.
 std::string_view trim(std::string_view text);
 
 // Returns the text before a comment, which begins with '#'. The '#' in 1.#QNAN does not begin one.

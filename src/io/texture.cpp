@@ -21,7 +21,7 @@ std::optional<Texture> Texture::read(std::string_view bytes, std::string_view na
   }
   if (highest <= 255) return texture;
   for (Image<float>& channel : texture.channels_)
-    for (float& value : channel.pixels) value /= 257;  // 16 bits
+    for (float& value : channel.pixels) value /= 257;  // from 16 bits to 8 bits
   return texture;
 }
 

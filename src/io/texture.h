@@ -1,4 +1,4 @@
-// Textures of meshes, sampled at the vertices to colour them.
+// Reads textures of meshes, and samples them at the vertices to colour these.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// The colours of 3MF documents: base materials, and colour groups of the materials extension. Tested by
+// Reads the colours of 3MF documents: base materials, and colour groups of the materials extension. Tested by
 // tests/io/threemf_test.cpp.
 #pragma once
 

@@ -50,7 +50,7 @@ class XmlParser {
   Result<void> take_text() {
     const std::size_t end = std::min(text_.find('<', at_), text_.size());
     const std::string_view text = without_space(text_.substr(at_, end - at_));
-    // Some writers append zeros to the section.
+    // Some writers append zero bytes to the XML.
     if (!text.empty() && open_.empty() && text.find_first_not_of('\0') != std::string_view::npos)
       return error(cat("expected an element, found ", in_quotes(text)));
     keep(text);

@@ -83,10 +83,10 @@ class XyzReader {
   SourceLines lines_;
   std::vector<std::size_t> slots_;  // per column: index in values_; most_wanted if the column is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
-  // promised_: number of points up to the end of this scan; before_block_: before it.
+  // Numbers of points: promised_ up to the end of this scan, before_block_ up to its beginning.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
-  std::vector<Vec3f> colours_;  // as written in the file
+  std::vector<Vec3f> colours_;  // colours as the file has them, in any range
 };
 
 std::string to_string(const XyzLayout& layout) {
@@ -140,7 +140,7 @@ bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t
 std::string_view line_around(std::string_view data, std::size_t byte) {
   const std::size_t limit = 1000, first = byte - std::min(byte, limit);
   const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
-  const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
+  const std::size_t begin = left.find_last_of("\r\n") + 1;  // without a line break, npos + 1 is 0
   const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
   return data.substr(first + begin, byte + end - first - begin);
 }
@@ -189,22 +189,23 @@ std::vector<Row> first_rows(std::string_view data, const XyzLayout& layout) {
   return rows;
 }
 
-// Returns whether the first column grows from row to row, or in samples of rows at least never falls.
+// Returns whether the first column grows from row to row. In samples of rows it may also stay the same,
+// because a row may be sampled twice.
 bool grows(const std::vector<Row>& rows, bool is_sample) {
   return std::ranges::adjacent_find(rows, [&](const Row& a, const Row& b) {
            return !(a[0] < b[0] || (is_sample && a[0] == b[0]));
          }) == rows.end();
 }
 
-// Returns whether the first column numbers the points: whole numbers that grow from row to row, as x of a surface
-// does not, before three columns that have fractions in most rows.
+// Returns whether the first column numbers the points. It must have integers that grow from row to row, which
+// x of a surface does not, and the next three columns must have fractions in most rows.
 bool are_numbered(const std::vector<Row>& samples, const std::vector<Row>& first) {
   constexpr std::size_t fewest = 8;
   const auto has_no_row = [](const Row& row) { return row.size() < 4; };
   if (samples.empty() || first.size() < fewest || std::ranges::any_of(first, has_no_row) ||
       std::ranges::any_of(samples, has_no_row))
     return false;
-  // Coordinates and a normal or a colour are all that six columns have.
+  // Six columns with coordinates and a normal or a colour have no column left for numbers of points.
   if (samples[0].size() == 6 && (are_unit_vectors(samples, 3) || are_colours(samples, 3))) return false;
   std::array<std::size_t, 4> fractions = {};
   for (const Row& row : samples)

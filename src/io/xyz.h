@@ -1,4 +1,4 @@
-// The layout of text files with one point per line (XYZ, PTS, CSV).
+// Determines the layout of text files with one point per line (XYZ, PTS, CSV).
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 namespace relievo::io {
 
 // Iterates over the fields of a line: words if `separator` is ' ', otherwise the texts between separators,
-// without surrounding blanks and quotation marks. A separator at the end of the line ends the last field; no
-// further field follows.
+// without surrounding blanks and quotation marks. A separator at the end of the line ends the last field, and
+// is not followed by an empty field.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : line_(line), words_(line), separator_(separator) {}
@@ -37,7 +37,7 @@ using ColumnNames = std::vector<std::string_view>;
 struct XyzLayout {
   static constexpr std::size_t most_wanted = 9, first_normal = 3, first_colour = 6;
   char separator = ' ';
-  bool has_decimal_commas = false;                          // instead of decimal points
+  bool has_decimal_commas = false;                          // whether commas replace decimal points
   std::size_t columns = 0;                                  // number of columns in every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
   bool has_names = false;                                   // whether a line has names of the columns
@@ -59,10 +59,10 @@ bool has_coordinates(const ColumnNames& names);
 // Returns whether the only coordinates among the names are longitude and latitude.
 bool has_degrees(const ColumnNames& names);
 
-// Set the columns of coordinates, normals and colours. take_columns() finds them by their names,
-// find_columns() by their values in lines all over the file: unit vectors and colours. In find_columns() the
-// first three columns are coordinates, or the three after the first if `has_name` and no sampled line begins
-// with a number, or the three after a scanner's row and column or after the point's number.
+// Set the columns of coordinates, normals and colours. take_columns() finds the columns by their names.
+// find_columns() finds normals and colours by their values in lines from the whole file. Its coordinates are
+// the first three columns, or the three after a scanner's row and column, a point's number or a name. There
+// can be a name only if `has_name` is set and no sampled line begins with a number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
@@ -74,12 +74,12 @@ bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t 
 // fractions from 0 to 1.
 bool are_colours(const std::vector<std::vector<double>>& rows, std::size_t column);
 
-// Sets the columns of normals and colours by their values in the rows, after the coordinates in the columns
-// `first` to first + 2.
+// Finds the columns of normals and colours by their values in the rows. The columns `first` to first + 2 are
+// coordinates.
 void find_normals_and_colours(const std::vector<std::vector<double>>& rows, std::size_t first,
                               XyzLayout& layout);
 
-// Returns what the columns are, such as "6 columns with normals".
+// Returns a description of the columns, such as "6 columns with normals".
 std::string columns_text(const XyzLayout& layout);
 
 // Returns up to 256 rows of numbers from the whole file, except rows with a different number of columns.
@@ -87,11 +87,12 @@ std::string columns_text(const XyzLayout& layout);
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
 // Sets the separator, the decimal mark and the number of columns from a line of data, whose number is
-// layout.first_line. Errors: kind input, for a comma that could be both.
+// layout.first_line. Errors: kind input if a comma could be a separator or a decimal comma.
 Result<void> take_separators(const Source& source, std::string_view line, XyzLayout& layout);
 
-// Detects the layout: from the names of the columns if the file has any, else from the first line of data
-// (separator, number of columns) and from lines throughout the file (normals, colours).
+// Detects the layout: the separator and the number of columns from the first line of data, and the meaning of
+// the columns from their names. If the file has no names, lines from the whole file show which columns are
+// normals and colours.
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

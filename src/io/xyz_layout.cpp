@@ -73,7 +73,7 @@ std::size_t end_of_quoted(std::string_view line) {
   return 0;
 }
 
-// Returns the line without quoted fields, because separators in them do not count.
+// Returns the line without quoted fields, because separators inside quotation marks do not count.
 std::string without_quoted(std::string_view line) {
   std::string plain;
   bool begins_field = true;
@@ -127,8 +127,8 @@ char likely_separator(std::string_view line) {
 }
 
 // Returns whether the first column is a name, which begins with a letter, and three numbers follow. If blanks
-// separate the fields, there must be three, six or nine numbers; otherwise "Point 1 10 20 30" would have x =
-// 1.
+// separate the fields, there must be three, six or nine numbers; otherwise the 1 of "Point 1 10 20 30" would
+// be read as x.
 bool begins_with_name(std::string_view line) {
   XyzLayout layout;
   layout.separator = likely_separator(line);
@@ -242,7 +242,7 @@ std::optional<double> parse_field(std::string_view field, const XyzLayout& layou
 std::string_view without_comment(std::string_view line) {
   for (const char mark : {'#', '/'}) {
     for (std::size_t i = line.find(mark); i < line.size(); i = line.find(mark, i + 1)) {
-      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // false in 1.#QNAN
+      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // false for the # in 1.#QNAN
       if (begins_word && is_comment(line.substr(i))) line = line.substr(0, i);
     }
   }

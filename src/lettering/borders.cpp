@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Distances between the beads or strands of a row and the shape of strands, as fractions of the row's width.
+// Distances between neighbouring beads or strands, and sizes of strands, as fractions of the row's width.
 constexpr double bead_step = 1.5, strand_step = .8, strand_length = .62, strand_width = .27;
 constexpr double strand_turn = std::numbers::pi / 4;
 constexpr int piece_corners = 32;

@@ -16,7 +16,7 @@ struct BorderRow {
   double count = 0;  // number of beads or strands; 0: as many as fit well
 };
 
-// Returns the two edges of a line with the given width. Its outer edge is `before_mm` inside the polygon.
+// Returns both edges of a line with the given width. The outer edge is `before_mm` inside the polygon.
 Outlines line_outlines(std::span<const Vec2> polygon, double before_mm, double width_mm);
 
 // Returns discs whose diameter is the width of the row.
@@ -25,7 +25,7 @@ Outlines bead_outlines(const BorderRow& row);
 // Returns ellipses that are tilted against the path, as the strands of a rope.
 Outlines rope_outlines(const BorderRow& row);
 
-// Returns the radius of the largest circle inside the polygon that represents a disc.
+// Returns the radius of the largest circle inside the polygon that represents a bead.
 double bead_radius(const BorderRow& row);
 
 // Returns the smaller half axis of a rope's ellipse.

@@ -254,7 +254,7 @@ class LineShaper {
     hb_buffer_set_direction(b, run.is_rightwards ? HB_DIRECTION_LTR : HB_DIRECTION_RTL);
     hb_buffer_set_script(b, run.script);
     hb_buffer_set_language(b, hb_language_from_string("und", -1));
-    // Only some builds of HarfBuzz know the tables of Graphite, which would give other glyphs.
+    // Only some builds of HarfBuzz support Graphite, which would give other glyphs. So only OpenType is used.
     constexpr const char* shapers[] = {"ot", nullptr};
     hb_shape_full(font_.get(), b, nullptr, 0, shapers);
     unsigned count = 0;

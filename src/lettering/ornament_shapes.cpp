@@ -15,13 +15,14 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Default sizes as fractions: texts of the margin without its borders, borders of the whole margin.
+// Default sizes of ornaments. The size of texts is a fraction of the margin without its borders, that of
+// borders a fraction of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // as a fraction of the text's size
 constexpr double below_rim = .8;     // default height as a fraction of the rim's height
 constexpr double least_mm = .01, most_mm = 1e4;
 
-// Returns the height of an ornament. If none is given, it is `usual`, but lower than the rim.
+// Returns the height of an ornament. If no height is given, it is `usual`, but lower than the rim.
 double height_of(const Ornament& ornament, double usual, const OrnamentFrame& frame) {
   if (frame.rim_mm) usual = std::min(usual, below_rim * *frame.rim_mm);
   const double height = ornament.height_mm.value_or(ornament.is_engraved ? -usual : usual);
@@ -51,10 +52,10 @@ double radius_within(const OrnamentFrame& frame) {
 // The circle on which a text stands. Angles increase in the reading direction.
 struct BaseCircle {
   Vec2 middle;
-  double radius, angle, sign;  // sign: -1 if the text is read clockwise
+  double radius, angle, sign;  // sign: 1 if the text is read counter-clockwise, -1 if clockwise
 
-  // Returns the position of a point of the line: `along` is its distance from the text's centre, and `letter`
-  // that of the centre of its letter.
+  // Returns the position of a point of the line: `along` is the distance of the point from the text's centre,
+  // and `letter` the distance of the centre of its letter from the text's centre.
   Vec2 place(double along, double letter, double up, double read_radius) const {
     const double turn = angle + sign * letter / read_radius;
     const Vec2 outwards(std::cos(turn), std::sin(turn)),
@@ -75,7 +76,6 @@ std::vector<Vec2> finely_divided(const std::vector<Vec2>& outline, double step) 
   return fine;
 }
 
-// Places the clusters of a text.
 class TextPlacer {
  public:
   TextPlacer(const Ornament& ornament, const OrnamentFrame& frame, ShapedLine line, double size)

@@ -21,8 +21,7 @@ struct OrnamentFrame {
   bool is_die = false;                // whether raised ornaments become sunk
 };
 
-// Returns how much of the margin the borders among the ornaments take that lie between the rim and the middle of the
-// margin.
+// Returns the width of the margin that borders occupy, in mm. Ignores borders beyond the margin's middle.
 double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm);
 
 // Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option for lengths

@@ -65,7 +65,7 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 }
 
 Cells cover(const Solid& solid) {
-  // 256 cells along the box; finer than the distance between any two sheets of a sample
+  // Cells of 1/256 of the longest side are smaller than the distance between any two sheets of a sample.
   const int levels = 8;
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level)

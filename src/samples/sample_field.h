@@ -1,4 +1,4 @@
-// Solids as scalar fields, and clouds of points scattered over their surfaces.
+// Defines solids as scalar fields, and scatters points over their surfaces.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// The solids of the samples, and the distance functions that they consist of. Tested by
+// Defines the solids of the samples, and the distance functions that they consist of. Tested by
 // tests/samples/sample_test.cpp.
 #pragma once
 
@@ -18,7 +18,7 @@ Solid still_life();
 Solid green_man();
 
 // Returns the field of an ammonite with rim radius 1, coiled in the xy plane, with its aperture at +x. The
-// slope of the field is up to 1.6, that of a distance is 1.
+// slope of the field is up to 1.6, while that of an exact distance is 1.
 double ammonite(const Vec3& p);
 
 inline double square(double x) {
@@ -88,10 +88,10 @@ inline Vec3 turned(const Vec3& p, int axis, double radians) {
 struct Leaf {
   double length = 0, half_width = 0;
   double rise = 0, curl = 0;  // the height of the mid-rib is (rise s + curl s^2) lengths at s in [0, 1]
-  double lobes = 4;           // per side
+  double lobes = 4;           // number of lobes on each side
   double thickness = 0.10;
   Vec3 root = Vec3::Zero();
-  Mat3 frame = Mat3::Identity();  // rows: along, across, up
+  Mat3 frame = Mat3::Identity();  // the rows are the directions along, across and up
   // Computed by placed(): bounds of the leaf, used to skip distant points.
   double lowest = 0, highest = 0;  // heights along `up`, from the root
   Vec3 middle = Vec3::Zero();
@@ -100,7 +100,7 @@ struct Leaf {
 
 struct LeafPose {
   Vec3 root;
-  Vec3 towards;  // of any length
+  Vec3 towards;  // direction from the root to the tip, of any length
   Vec3 facing;   // approximate normal of the upper side; not parallel to `towards`
 };
 

@@ -11,7 +11,7 @@ constexpr double ribs_per_turn = 30;
 
 struct Whorl {
   double angle;  // along the coil: 0 at the aperture, negative further inside
-  double scale;  // the rim radius there
+  double scale;  // rim radius of the shell at this angle
   // Around the cross-section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl.
   double side;
 };
@@ -23,7 +23,7 @@ double rib_phase(const Whorl& w) {
   return ribs_per_turn * w.angle + sickle;
 }
 
-// The cosine and sine of a phase. Those of its multiples follow by multiplication.
+// The cosine and sine of a phase. Those of sums, and so of multiples, need no trigonometric function.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }

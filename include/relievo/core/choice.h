@@ -1,5 +1,5 @@
-// Tables of the words for an enumeration's values. The same table is used to parse the words, to write them,
-// and to list them in errors.
+// Defines tables with the words for an enumeration's values. The same table is used to parse the words, to
+// write them, and to list them in errors.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Errors as values. The library throws nothing and prints nothing.
+// Defines errors, which functions return as values. The library throws nothing and prints nothing.
 #pragma once
 
 #include <version>
@@ -34,7 +34,7 @@ struct Error {
   // The caller's name for the input or option, such as "scan.ply" or "height"; may be empty.
   std::string input;
   std::string place;     // "line 12", "byte 340", "vertex 7"; empty if the error concerns the whole input
-  std::string expected;  // one clause: what was expected and what was found instead
+  std::string expected;  // one clause that says what was expected and what was found instead
 
   // Returns the error as one line of text: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty
   // members are left out.
@@ -48,7 +48,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind input, option, geometry or cancelled, to be returned from a function with a Result.
+// Return errors of kind input, option, geometry and cancelled, which any function with a Result can return.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }
@@ -65,7 +65,7 @@ inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
-// Macros, because a function could not return from its caller.
+// These are macros, because a function cannot return from its caller.
 #define RELIEVO_JOIN_(a, b) a##b
 #define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
 

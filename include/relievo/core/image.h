@@ -1,4 +1,4 @@
-// Rectangular grids of values: pictures, height maps and masks.
+// Defines rectangular grids of values: pictures, height maps and masks.
 #pragma once
 
 #include <cstddef>
@@ -33,7 +33,7 @@ struct Image {
   T& at(int x, int y) { return pixels[index(x, y)]; }
   const T& at(int x, int y) const { return pixels[index(x, y)]; }
 
-  // Sets the size; each side is at least 0. Then the values are unspecified. Allocated memory is reused.
+  // Sets the size; each side is at least 0. The values are unspecified afterwards. Reuses allocated memory.
   void resize(int new_width, int new_height, int new_channels = 1) {
     width = new_width;
     height = new_height;

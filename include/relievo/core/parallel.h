@@ -1,7 +1,7 @@
-// Parallel loops. The library creates threads only here. On systems without threads, such as WebAssembly, the
-// calling thread does everything. Loops are divided into blocks whose limits depend on the number of
-// elements, but not on the number of threads, so results have the same bits for any number of threads. Tested
-// by tests/core/parallel_test.cpp.
+// Runs loops in parallel. The library creates threads only here. On systems without threads, such as
+// WebAssembly, the calling thread does everything. Loops are divided into blocks whose limits depend on the
+// number of elements, but not on the number of threads, so results have the same bits for any number of
+// threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,8 @@ void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 inline constexpr std::size_t default_grain = 4096;
 
 // Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
-// run concurrently, so f may write only data of its own range. If f throws, some later ranges are skipped,
-// and the calling thread gets the exception; this holds for all functions below, too.
+// run concurrently, so f may write only data that belongs to its range. If f throws, some later ranges are
+// skipped, and the calling thread gets the exception; this holds for all functions below, too.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {
@@ -80,8 +80,8 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
   return start;
 }
 
-// One flag per block, for blocks that need the results of earlier blocks. A block may wait only for a lower
-// block of the same parallel call. There is no deadlock, because blocks are started in order, so the lower
+// One flag per block of a parallel call, for blocks that need the results of earlier blocks. A block may wait
+// only for a lower block of the same call. There is no deadlock: blocks are started in order, so the lower
 // block is running or done.
 class BlockFlags {
  public:

@@ -1,4 +1,4 @@
-// The progress of a long call: stage names, fraction done, times and cancellation.
+// Reports the progress of a long call: stage names, fraction done, times and cancellation.
 #pragma once
 
 #include <atomic>

@@ -1,4 +1,4 @@
-// Basic types for all other headers.
+// Defines the basic types of all other headers.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ struct Box {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
-  // Returns the bounding box of points of any precision. For points in the plane z is 0.
+  // Returns the bounding box of 2D or 3D points of any precision. 2D points have z = 0.
   template <typename Points>
   static Box of(const Points& points) {
     Box box;

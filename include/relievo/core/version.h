@@ -1,4 +1,4 @@
-// The library's version; CMakeLists.txt reads it from here.
+// Defines the library's version; CMakeLists.txt reads it from here.
 #pragma once
 
 namespace relievo {

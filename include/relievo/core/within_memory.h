@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Describes an operation for which memory may run out. Numbers are 0 if unknown.
+// Describes an operation for which memory may run out. An unknown number is 0.
 struct MemoryNeed {
   std::size_t points = 0;
   double resolution_mm = 0;

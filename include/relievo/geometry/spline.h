@@ -1,6 +1,6 @@
-// Multilevel B-splines: smooth functions of the plane, fitted to values at scattered sites. The sites are
-// fixed, the values change. Source: Lee, Wolberg and Shin, "Scattered Data Interpolation with Multilevel
-// B-Splines", 1997.
+// Fits multilevel B-splines, which are smooth functions of the plane, to values at scattered sites. The sites
+// are fixed; the values differ from function to function. Source: Lee, Wolberg and Shin, "Scattered Data
+// Interpolation with Multilevel B-Splines", 1997.
 //
 // The functions are uniform cubic B-splines on lattices; the cells of a level are half as wide as those of
 // the previous level. Each level is fitted to the residual of the coarser levels.
@@ -18,17 +18,17 @@ struct SplineOptions {
   double cell = .01;                            // width of the cells of the finest lattice, > 0
   // Number of lattices, [1, 16]; the cells of each are twice as wide as those of the next finer one.
   int levels = 5;
-  // The range of levels that are fitted, counted from the coarsest, 0. All others only refine the coarser
-  // function.
+  // The levels from `first_fitted` to `last_fitted` are fitted; level 0 is the coarsest. Each other level
+  // only represents the function of the coarser levels on its finer lattice.
   int first_fitted = 0, last_fitted = 15;
-  // The damping in units of the mean weight of the sites, >= 0, see MultilevelSpline::fit().
+  // The damping of MultilevelSpline::fit(), in units of the mean weight of the sites, >= 0.
   double damping = 0;
 };
 
 // A point relative to the finest lattice.
 struct SplinePlace {
-  Index node = 0;              // lower left one of the 4 x 4 nodes that influence the point
-  std::uint16_t x = 0, y = 0;  // position in the middle cell of these nodes, in units of 1/65536
+  Index node = 0;              // lower left node of the 4 x 4 nodes that influence the point
+  std::uint16_t x = 0, y = 0;  // position in the middle cell of the 4 x 4 nodes, in units of 1/65536
 };
 
 // A function of the plane: the sum of a constant and a uniform cubic B-spline.
@@ -47,7 +47,7 @@ class MultilevelSpline {
     std::vector<float> correction;  // per node: correction by the current level
   };
 
-  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites functions are 0
+  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites, all fitted functions are 0
 
   // Prepares fits at the sites. Each site has a weight >= 0, relative to other sites near it.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
@@ -59,23 +59,24 @@ class MultilevelSpline {
   Workspace make_workspace() const;
 
   // Overwrites the function with the fit to one value per site: the weighted mean of the values, corrected
-  // level by level. Damping reduces corrections with little support: by half at nodes where the sum of
-  // weights around the node equals the damping. Nodes without nearby sites keep the values of the coarser
-  // levels. If all weights are 0, the function is 0.
+  // level by level. Damping reduces corrections that few sites support: a node gets half of its correction if
+  // the sum of the weights of the sites around it equals the damping. Nodes without nearby sites keep the
+  // values of the coarser levels. If all weights are 0, the function is 0.
   void fit(std::span<const float> values, SplineFunction& function, Workspace& workspace) const;
 
-  // Returns the points relative to the finest lattice, as evaluate() needs them.
+  // Returns the points as positions on the finest lattice, which evaluate() needs.
   std::vector<SplinePlace> pack(std::span<const Vec2> points) const;
 
   // Writes the function's value at each position to `values`, which must have the same size as `places`.
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
 
-  // Interleaves the nodes of two functions. Overwrites `pair` with the result. The functions may belong to
-  // another spline with the same domain, cell size and number of levels.
+  // Interleaves the node values of two functions, and overwrites `pair` with them. The functions may belong
+  // to another spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // Writes the values of both functions, without their means, at each position. Uses only the calling thread.
+  // The values of two functions, without their means. evaluate() writes a value of each function for each
+  // position. It uses only the calling thread.
   struct PairValues {
     std::span<float> a, b;
   };
@@ -85,7 +86,7 @@ class MultilevelSpline {
  private:
   struct Position {
     Index node = 0;
-    float x = 0, y = 0;  // position in the middle cell, in [0, 1]
+    float x = 0, y = 0;  // position in the middle one of the cells between the 4 x 4 nodes, in [0, 1]
   };
   struct Site {
     Eigen::Array4f x, y;  // weights of the 4 nodes along each axis
@@ -93,10 +94,10 @@ class MultilevelSpline {
     float scale = 0;  // the site's weight divided by the sum of the squared node weights
   };
   struct Level {
-    std::size_t columns = 0, rows = 0;  // numbers of nodes, which is cells + 3
+    std::size_t columns = 0, rows = 0;  // numbers of nodes: cells + 3
     double cell = 0;
     std::vector<Site> sites;     // empty unless the level is fitted
-    std::vector<float> inverse;  // per node: 1 / the sum of weights around it
+    std::vector<float> inverse;  // per node: 1 / the sum of the weights of the sites around it
   };
 
   Position locate(const Level& level, const Vec2& point) const;

@@ -1,4 +1,4 @@
-// Delaunay triangulation in the view plane (stages 6 and 13), with exact predicates.
+// Computes Delaunay triangulations in the view plane (stages 6 and 13), with exact predicates.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 namespace relievo {
 
 // A Delaunay triangulation of given points. All triangles are counter-clockwise, together they cover the
-// convex hull, and no point is strictly inside a triangle's circumcircle. All of this holds exactly.
+// convex hull, and no point is strictly inside a triangle's circumcircle. These properties hold exactly.
 struct Triangulation {
   std::vector<Triangle> triangles;
   // neighbours[t][i] is the triangle on the other side of the edge opposite to corner i of t; no_index on the
@@ -21,7 +21,7 @@ struct Triangulation {
 
 // Returns the Delaunay triangulation of `points`.
 //
-// - Of points with equal coordinates the one with the lowest index is used; the others are in no triangle.
+// - Among points with equal coordinates, only the one with the lowest index is in triangles.
 // - If there are fewer than three distinct points, or all points are collinear, there are no triangles and no
 // hull.
 // - Cocircular points are triangulated in one of the valid ways, which is the same for the same input on

@@ -15,34 +15,34 @@
 
 namespace relievo {
 
-// Returns the formats that the functions below read, for help and messages: "point cloud (PLY, PCD ...), mesh
-// (PLY, STL ...) or depth image (PNG, TIFF ...)".
+// Returns a text that lists the formats that the functions below read, for help and messages: "point cloud
+// (PLY, PCD ...), mesh (PLY, STL ...) or depth image (PNG, TIFF ...)".
 std::string readable_formats();
 
-// Returns the endings of the names of readable files, in lower case with the dot.
+// Returns the file name extensions of readable files, in lower case with the dot.
 std::vector<std::string> readable_endings();
 
 // A function that returns the bytes of another file that the file being read refers to, such as a buffer of a
-// glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. The
-// reader reports an error only as a file that cannot be read.
+// glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
+// function returns an error, the reader reports only that it cannot read that file.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
 // Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content
-// or, if that is not decisive, by the ending of `name`; anything else is read as text of numbers.
-// src/io/formats.h lists the supported parts of each format. Errors contain `name`.
+// or, where the content does not show it, by the extension of `name`. Any other file is read as a text of
+// numbers. src/io/formats.h lists the supported parts of each format. Errors contain `name`.
 //
-// Polygons, also concave ones, are triangulated as if they were flat. A polygon that intersects itself
-// becomes a triangle fan. Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf.
-// Numbers too large for double are infinite.
+// Convex and concave polygons are triangulated as if they were flat. A polygon that intersects itself becomes
+// a triangle fan. Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. Numbers
+// too large for double are infinite.
 //
-// `beside` is called at most once for each other file that the file refers to. Without `beside`, such a
-// reference is an error, or only a remark if just colours are missing.
+// `beside` is called at most once for each other file that the file refers to. Without `beside`, a reference
+// to another file is an error; if the other file has only colours, it is a remark.
 //
 // Errors (kind input) state the line or the byte and what was expected there, or name an unsupported format,
 // such as "a PTX file". It is an error if no point has finite coordinates. It is also an error if a header
-// promises more than the bytes contain; no memory is allocated for it. Only a LAS file that ends early is
-// read to its end. Reading always terminates: there is no recursion, and the time is linear in the number of
-// bytes, except that concave polygons of at most 10,000 corners take quadratic time.
+// promises more than the bytes contain; no memory is allocated for the missing part. LAS is an exception: an
+// incomplete file is read to its end. Reading always terminates: there is no recursion, and the time is
+// linear in the number of bytes, except that concave polygons of at most 10,000 corners take quadratic time.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
@@ -57,7 +57,7 @@ struct ReadOptions {
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const ReadOptions& options);
 
-// Returns messages about the points and normals of a file that were left out, including its remarks.
+// Returns messages about the points and normals of a file that were left out, and the file's remarks.
 std::vector<std::string> remarks_on(const CloudFile& file);
 
 // Returns whether a file that begins with these bytes is a picture, an array or a table of heights.
@@ -71,20 +71,21 @@ struct PictureChannels {
 
 // Returns the depths in a picture; missing ones are NaN.
 //
-// - PNG: grey with 8 or 16 bits, or with equal colour channels. Pixels that are more transparent than opaque
-//   are missing.
-// - TIFF: grey, also in equal colours, with whole numbers of 1 to 32 or 64 bits or fractions of 16, 32 or 64
-//   bits, in strips or tiles, with any compression that libtiff supports: the first picture that is neither a
-//   thumbnail nor a mask, turned as its tag Orientation says. Transparent pixels are missing, and so are values
-//   that GDAL's no-data tag states. If 0 is white, whole numbers are inverted, so that bright pixels have large
-//   values.
-//   GeoTIFF's tags give the size of pixels, also in degrees.
+// - PNG: grey with 8 or 16 bits, or colours whose channels are equal. Pixels that are more transparent than
+//   opaque are missing.
+// - TIFF: grey, or colours whose channels are equal; integers of 1 to 32 or 64 bits, or floating-point
+//   numbers of 16, 32 or 64 bits; strips or tiles; any compression that libtiff supports. The first picture
+//   that is neither a thumbnail nor a mask is read, and turned as its tag Orientation says. Transparent
+//   pixels are missing, and so are values that GDAL's no-data tag states. If the file states that 0 is white,
+//   integers are inverted, so that bright pixels have large values. GeoTIFF's tags give the size of pixels,
+//   also in degrees.
 // - JPEG: grey, turned as the tag Orientation of Exif says. Pictures in colour are read if their channels are
-//   equal, or if a channel or the luminance is asked for. No CMYK.
-// - NPY: an array of whole numbers or fractions in two dimensions. PFM, PGM, PPM and BMP without compression.
+//   equal, or if `channels` asks for a channel or the luminance. CMYK is not read.
+// - NPY: a two-dimensional array of integers or floating-point numbers.
+// - PFM, PGM, PPM; BMP without compression.
 // - Esri ASCII grid, with its no-data value and the size of its cells.
-// - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers are alike: a line is a row of
-//   the picture, from the top. Other words are missing values.
+// - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers are alike: a line is a row
+//   of the picture, from the top. Other words are missing values.
 //
 // Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27
 // pixels or fewer than 4 x 4.
@@ -99,7 +100,7 @@ Result<DepthCamera> parse_camera(std::string_view text);
 // the scan is read.
 struct ScanSize {
   std::uint64_t points = 0, triangles = 0, pixels = 0;
-  // True if the header states the size, false if it is estimated from the size of the file.
+  // Whether the header states the size. If not, the size is estimated from the size of the file.
   bool is_stated = false;
 };
 

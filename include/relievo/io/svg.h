@@ -10,7 +10,7 @@
 namespace relievo {
 
 // Returns closed outlines of the drawing's filled paths, in the drawing's unit, with y upwards. The filled
-// area is where their winding number is not 0. Curves are approximated by polygons to a 5000th of the
+// area is where their winding number is not 0. Curves become polygons whose error is at most 1/5000 of the
 // drawing's longer side. Strokes and paths without fill are ignored. Errors: kind input, with the position,
 // for text that is not SVG, shapes other than paths, transforms, invalid path data, and more than 50,000
 // corners.

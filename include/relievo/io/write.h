@@ -66,8 +66,8 @@ std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& l
 // description has mm_per_pixel and the unit of the heights. The result is empty for an image without pixels.
 std::vector<std::byte> write_tiff(const HeightsMm& heights);
 
-// Returns the grey levels as a deflated TIFF with 8 or 16 bits and the same tags. `description` becomes its
-// description.
+// Returns the grey levels as a deflated TIFF with 8 or 16 bits and the same resolution tags. `description`
+// becomes the description of the file.
 std::vector<std::byte> write_tiff(const HeightMap& map, const std::string& description);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Texts, borders and drawings on the ground of a plate.
+// Defines texts, borders and drawings on the ground of a plate.
 #pragma once
 
 #include <array>
@@ -43,13 +43,13 @@ inline constexpr std::array<Choice<OrnamentKind>, 5> ornament_kinds{{{"text", Or
                                                                      {"line", OrnamentKind::line},
                                                                      {"drawing", OrnamentKind::drawing}}};
 
-// A TrueType or OpenType font. Options are equal only if their fonts are the same object.
+// A TrueType or OpenType font. Two options compare equal only if both point to the same FontFile object.
 struct FontFile {
   std::string name;  // name for errors
   std::vector<std::byte> bytes;
 };
 
-// An ornament. Lengths without a value follow from the plate's margin.
+// An ornament. Lengths that are not given are derived from the plate's margin.
 struct Ornament {
   OrnamentKind kind = OrnamentKind::text;
   std::string text = {};                      // UTF-8
@@ -58,7 +58,7 @@ struct Ornament {
   std::optional<double> size_mm = {};  // height of capitals; diameter of beads; width of borders and drawings
   std::optional<double> height_mm = {};  // height above the ground; negative below it
   std::optional<double> inset_mm = {};   // distance from the rim to the outer edge
-  std::optional<double> angle_deg = {};  // middle of a text on an arc, counter-clockwise from x
+  std::optional<double> angle_deg = {};  // middle of a text on an arc, counter-clockwise from the x axis
   std::optional<Vec2> at_mm =
       {};                    // middle of a straight text or of a drawing, relative to the plate's middle
   bool is_engraved = false;  // cut into the ground with walls of 45 degrees, which meet in thin strokes
@@ -69,8 +69,8 @@ struct Ornament {
   bool operator==(const Ornament&) const = default;
 };
 
-// The largest height or depth of a plate's ornaments, and their thinnest stroke. The values below are those
-// without ornaments.
+// Facts about the ornaments of a plate: their largest height or depth, and their thinnest stroke. The default
+// values are those of a plate without ornaments.
 struct OrnamentFacts {
   double highest_mm = 0;
   double thinnest_mm = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// Height maps of a solid's front: grey levels for machines and pictures, or millimetres.
+// Makes height maps of a solid's front: grey levels for machines and pictures, or millimetres.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace relievo {
 // The part of a front that a height map shows.
 enum class MapArea {
   plate,
-  relief  // without the rim and the flat ground around the relief
+  relief  // only the relief, without the rim and the flat ground around it
 };
 
 inline constexpr std::array<Choice<MapArea>, 2> map_area_choices{
@@ -51,17 +51,17 @@ struct HeightsMm {
 };
 
 // Returns the front of a solid as heights above the zero of the options, or as depths below its highest
-// point. A pixel has the height of the solid's triangle at its centre, including the outline. Pixels beside
-// the plate have the height of the front's lowest point; pixels beside a relief that is shown alone have that
-// of the ground. The shown part is centred in the picture. The result has no pixels if the solid is empty, or
-// if the number of pixels along a side would not be in [1, 32768].
+// point. A pixel has the height of the solid's triangle at its centre, also on the outline. Pixels beside the
+// plate have the height of the front's lowest point. If only the relief is shown, pixels beside it have the
+// height of the ground. The shown part is centred in the picture. The result has no pixels if the solid is
+// empty, or if the number of pixels along a side would not be in [1, 32768].
 HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options);
 
 // Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels; heights
-// below the zero have its grey level. If the range is empty, all pixels have the grey level of the zero.
+// below the zero have the zero's grey level. If the range is empty, all pixels have that level.
 HeightMap grey_levels(const HeightsMm& heights, int bits = 16);
 
-// Returns the picture of a map with 8 bits.
+// Returns the image of the map with 8 bits per grey level.
 Image8 in_8_bits(const HeightMap& map);
 
 // Returns the number of different grey levels in the picture.

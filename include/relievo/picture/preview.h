@@ -1,4 +1,4 @@
-// Shaded pictures of a finished body, from the front and obliquely, or from any direction, drawn on the CPU.
+// Draws shaded pictures of a finished body on the CPU: from the front and obliquely, or from any direction.
 #pragma once
 
 #include <limits>
@@ -16,19 +16,20 @@ struct PreviewOptions {
   int longer_side_px = 1200;      // longer side of each of the two pictures
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate
   Material material = Material::plaster;
-  // The body before bending. If given, the front picture shows this solid instead: bending to the inside
-  // hides the relief, and any bending hides a porcelain relief, which is lit from behind. The solid must
-  // outlive the call.
+  // The body before bending. If given, the front picture shows it instead of the bent body, because bending
+  // to the inside hides the relief, and any bending hides a porcelain relief, which is lit from behind. The
+  // solid must outlive the call.
   const Solid* flat = nullptr;
   // The oblique picture cuts the body at this height in z, and shows only the part below.
   double nearest_mm = std::numeric_limits<double>::infinity();
 };
 
-// Returns a picture (3 channels) of the body from the front and, to the right of that, obliquely, on a
-// neutral background. Both equal FrameRenderer's fine picture of the same body at this size and zoom, up to
-// one grey level of rounding, with the same lamp and sky, soft cast shadows and darkened hollows. The light
-// is fixed to the plate, so both show the same shading. Level triangles are shaded flat. The result has no
-// pixels for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles on two cores.
+// Returns a picture (3 channels) of the body on a neutral background: on the left from the front, on the
+// right obliquely. Both views equal FrameRenderer's fine picture of the same body at this size and zoom, up
+// to one grey level of rounding: lamp and sky, soft cast shadows and darkened hollows are the same. The light
+// is fixed to the plate, so both views show the same shading. Horizontal triangles are shaded flat. The
+// result has no pixels for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles
+// on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
 // Draws one solid like render_preview(). The background is transparent (opacity 0) except for the solid's

@@ -1,5 +1,5 @@
-// Draws pictures of frames in milliseconds, for programs that show a relief while the user edits it, on the
-// CPU. For pictures of a finished solid see render_preview().
+// Draws pictures of frames on the CPU, in milliseconds, for programs that show a relief while the user edits
+// it. For pictures of a finished solid see render_preview().
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace relievo {
 
 struct Picture {
   Image8 image;  // 4 channels
-  // The scale of the plate's plane in the front view. CloudRenderer sets pixels per unit of the scan.
+  // The scale of the plate's plane in the front view. CloudRenderer writes the pixels per unit of the scan.
   double pixels_per_mm = 1;
 };
 
@@ -41,7 +41,7 @@ struct RenderOptions {
   Camera camera;
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate; not zero
-  bool has_shadows = true;        // shadows of the relief on itself, and darker hollows
+  bool has_shadows = true;        // whether the relief casts shadows on itself, and hollows are darker
   bool is_fine = false;           // nine samples per pixel and finer shadows, in about five times the time
 
   // Returns whether width and height are in [1, 8192]. If not, pictures are empty.
@@ -51,7 +51,7 @@ struct RenderOptions {
 };
 
 // Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane. Rows begin with the lowest. Cells are NaN where the scan shows nothing and at edges.
+// view plane. The first row is the lowest. Cells are NaN where the scan shows nothing and at edges.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;
@@ -73,22 +73,22 @@ struct Shown {
   std::span<const float> tint = {};
 };
 
-// The size of a piece and, if it is not bent around a wrap, where the middle of its relief lies from the middle
-// of the piece.
+// The size of a piece, and the offset of the middle of its relief from its own middle. A piece that is bent
+// around a wrap has no offset.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();
 };
 
-// Draws frames of one model on a plate, rectangular without a rim unless render_on() has another. The
-// background is transparent (opacity 0) except for the plate's soft shadow. For the front view the visible
-// triangle of each pixel is cached. So if only heights or light change, a picture takes one look-up per
-// pixel, about 10 ms for 500,000 pixels on two cores. Other views take three times as long. Not for
+// Draws frames of one model on a plate. The plate is rectangular without a rim; render_on() draws other
+// plates. The background is transparent (opacity 0) except for the plate's soft shadow. For the front view
+// the visible triangle of each pixel is cached: if only heights or light change, a picture takes one look-up
+// per pixel, about 10 ms for 500,000 pixels on two cores. Other views take three times as long. Not for
 // concurrent use.
 class FrameRenderer {
  public:
-  // Shares ownership of the surface, of which it uses the points, their normals, the triangles with their
-  // hull, and Boundary::is_inside. The second constructor draws the surface of a model.
+  // Shares ownership of the surface. Uses its points, their normals, the triangles with their hull, and
+  // Boundary::is_inside. The second constructor draws the surface of a model.
   explicit FrameRenderer(std::shared_ptr<const Surface> surface);
   explicit FrameRenderer(const std::shared_ptr<const ReliefModel>& model);
   FrameRenderer(FrameRenderer&&) noexcept;
@@ -100,10 +100,10 @@ class FrameRenderer {
               const Progress* progress = nullptr);
 
   // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
-  // or as a die. Of the lengths in `options` only mm_per_unit is used. There must be no ornaments, and a
-  // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
-  // the rim's height has changed since, pictures that are not fine show the old bevel. Errors: those of
-  // make_plate() and wrap_plate().
+  // or as a die. Uses only mm_per_unit of the lengths in `options`. There must be no ornaments, and a plate
+  // without ground must have a plane base and no wrap. The plate is kept for the next picture. If only the
+  // height of the rim has changed since the plate was made, pictures that are not fine show its old bevel.
+  // Errors: those of make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 

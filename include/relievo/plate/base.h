@@ -1,4 +1,4 @@
-// Bases: surfaces under a relief, given as heights above the plane of its plate.
+// Defines bases, which are surfaces under a relief, given as heights above the plane of its plate.
 #pragma once
 
 #include <array>
@@ -36,14 +36,15 @@ inline constexpr std::array<Choice<BaseKind>, 6> base_choices{{{"plane", BaseKin
 struct BaseOptions {
   BaseKind kind = BaseKind::plane;
   // Difference between the highest and the lowest point, on the plate or in the image. The default for an
-  // image is a tenth of the plate.
+  // image is a tenth of the plate's longer side.
   std::optional<double> height_mm;
-  // For a fold: angle between each half and the plate. The default is 15 degrees, if there is no height.
+  // For a fold: angle between each half and the plate. The default without height_mm is 15 degrees.
   std::optional<double> angle_deg;
-  // If there is no height, either, the default for a cylinder is twice the plate's width, and a dome gets a
-  // height of 0.15 of the plate's radius.
+  // Diameter of a cylinder or a dome. Without height_mm, the default for a cylinder is twice the plate's
+  // extent across its axis, and a dome becomes 0.15 of the plate's radius high.
   std::optional<double> diameter_mm;
-  // For a wave: distance from crest to crest. The default is half the plate, but at least 4 heights.
+  // For a wave: distance from crest to crest. The default is half the plate's extent across the waves, but at
+  // least four times height_mm.
   std::optional<double> length_mm;
   double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is vertical
   bool is_hollow = false;     // whether it is upside down: a valley, a trough or a bowl
@@ -51,7 +52,7 @@ struct BaseOptions {
   // For an image: heights in any unit.
   std::shared_ptr<const Image<float>> image;
 
-  bool operator==(const BaseOptions&) const = default;  // equal images are the same object
+  bool operator==(const BaseOptions&) const = default;  // images are equal only if they are the same object
 };
 
 // Returns the base described by a text such as "wave", "wave:height=3,length=40" or
@@ -76,8 +77,8 @@ class Base {
   // Returns the height in mm at a position in the outline's coordinates.
   double height(const Vec2& place) const;
 
-  // Returns an approximate length in mm over which the base curves in one direction only; infinity if the
-  // whole base does.
+  // Returns an approximate length in mm within which the base is only convex or only concave; infinity if the
+  // whole base is.
   double min_feature_mm() const { return min_feature_mm_; }
 
   // Returns the position, in (0, 1), where the segment from a to b crosses the ridge of a fold; nothing if it

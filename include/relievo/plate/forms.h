@@ -1,4 +1,4 @@
-// The forms of a relief: as it is, mirrored, as a die that strikes it, or as a lithophane.
+// Makes the forms of a relief: as it is, mirrored, as a die that strikes it, or as a lithophane.
 #pragma once
 
 #include <array>

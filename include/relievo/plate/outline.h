@@ -1,4 +1,4 @@
-// Outlines: the shapes of plates, seen from the front.
+// Computes outlines, which are the shapes of plates seen from the front.
 #pragma once
 
 #include <array>
@@ -62,10 +62,10 @@ bool is_box(Outline outline);
 // micrometre or a ten-millionth of the curve's radius, whichever is more.
 //
 // Outlines are centred on the bounding box of the points. Circles, ellipses and hexagons are centred only
-// horizontally; their vertical position minimises the circle or ellipse. All outlines but `round` are as
-// small as their centre allows. If rounded corners would cut into the margin, the sides are moved outwards.
-// If a size is given, the outline has that size and the same centre. The result is empty for no points and
-// for `none`.
+// horizontally; their vertical position makes the circle or ellipse as small as possible. All outlines but
+// `round` are as small as their centre allows. If rounded corners would cut into the margin, the sides are
+// moved outwards. If a size is given, the outline has that size and the same centre. The result is empty for
+// no points and for `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo

@@ -20,24 +20,24 @@ struct SimplifyOptions {
   // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A needle may
   // exceed the limit by the slope that corresponds to a micrometre of height.
   double max_slope = std::numeric_limits<double>::infinity();
-  // Limit of the number of triangles. When it is reached, the error may exceed the tolerance. The points that
-  // are always kept may need more triangles than the limit.
+  // Limit of the number of triangles. When it is reached, the error may exceed the tolerance. There may be
+  // more triangles than the limit, because some points are always kept, see simplify().
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 
 // Returns the front with fewer points. Its distance from the original is at most `tolerance_mm`. The result
-// is a Delaunay triangulation. The point of the front or of its edges with the largest error is added
-// repeatedly, until no error exceeds the tolerance or the limit of triangles is reached. The highest and the
-// lowest point are kept. Flat ground is reduced to few triangles and stays flat, because all points on its
-// boundary are kept. If `is_relief` is given, all points on the relief's rim are kept, and `is_relief` of the
-// result is set. If the result would have more triangles, the front is returned unchanged. Errors: kind
-// option for a tolerance that is not positive; kind geometry for a front without triangles, or whose
-// triangles are not a Delaunay triangulation up to rounding, so that they do not cover their hull; kind
-// cancelled.
+// is a Delaunay triangulation. Points are added one by one: always the point of the front or of its edges at
+// which the error is largest, until no error exceeds the tolerance or the limit of triangles is reached. The
+// highest and the lowest point are kept. Flat ground is reduced to few triangles and stays flat, because all
+// points on its boundary are kept. If `is_relief` is given, all points on the relief's rim are kept, and
+// `is_relief` of the result is set. If the result would have more triangles than the front, the front is
+// returned unchanged. Errors: kind option for a tolerance that is not positive; kind geometry for a front
+// without triangles, or whose triangles are not a Delaunay triangulation up to rounding, so that they do not
+// cover their hull; kind cancelled.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
                                 Progress* progress = nullptr);
 
-// Returns the same without a slope limit.
+// Simplifies the front without a limit for slopes.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, double tolerance_mm,
                                 Progress* progress = nullptr);
 

@@ -1,4 +1,4 @@
-// A relief as a closed body for milling or printing, in millimetres.
+// Makes a relief into a closed body for milling or printing, in millimetres.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +58,7 @@ struct PlateOptions {
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();            // slope limit for simplify()
   std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // limit of triangles for simplify()
-  std::optional<Tool> tool = {};  // makes the front that this tool leaves; only for a plane base
+  std::optional<Tool> tool = {};  // if given, the front is cut by this tool; only for a plane base
   // Width and height of the outline, see OutlineOptions; 0 if not given. For a die whose rim is a groove,
   // this is the size of the workpiece that the die makes.
   Vec2 size_mm = Vec2::Zero();
@@ -66,9 +66,9 @@ struct PlateOptions {
   std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
-  // make_plate() expects a front that already has the form, see forms.h, and gives it to the ornaments.
+  // make_plate() expects a front that is mirrored or inverted already, and does the same to the ornaments.
   bool is_mirrored = false;  // whether left and right are swapped
-  bool is_die = false;       // whether what is raised in the relief is sunk, and the reverse
+  bool is_die = false;       // whether what is raised in the relief is sunk, and vice versa
 
   bool operator==(const PlateOptions&) const = default;
 };
@@ -87,7 +87,7 @@ struct Solid {
   std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
   Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, for flat ground
   double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
-  double error_mm = 0;  // largest distance from the exact surface, due to curving and simplifying
+  double error_mm = 0;  // largest distance from the exact surface, due to bending and simplifying
   OrnamentFacts ornaments = {};
   // Unit of the coordinates; only in_unit() and files use other units than mm.
   LengthUnit unit = LengthUnit::mm;
@@ -101,14 +101,14 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // at the origin: x, y, z >= 0, with the bottom at z = 0 and the lowest point of the front at z =
 // thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
 // of the front, including ground and rim. The front's points and triangles come first, in their order. The
-// ground adds as points only the corners of the outline and of the rim's edges; ornaments add theirs. If two
-// points coincide in single precision, the second is raised or lowered by the smallest step that separates
-// them.
+// ground adds as points only the corners of the outline and of the rim's edges; ornaments add their own
+// points. If two points would coincide in single precision, z of the second one is changed by the smallest
+// step that separates them.
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the
-// bottom has as many. Triangles that are connected only by a corner, and parts smaller than a thousandth of
-// the whole, are left out.
+// bottom has as many points and triangles. Triangles that are connected only by a corner, and parts smaller
+// than a thousandth of the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
 // bevel wider than its rim, a rim or ornaments with the outline `none`, or ornaments without sufficient

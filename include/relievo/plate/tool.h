@@ -1,4 +1,4 @@
-// Milling tools, the part of a front that they reach, and the surface that they leave.
+// Describes milling tools, and computes the part of a front that they reach and the surface that they leave.
 #pragma once
 
 #include <string>
@@ -25,11 +25,11 @@ struct Tool {
   bool operator==(const Tool&) const = default;
 };
 
-// Returns the tool described by a text: "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in
-// degrees and lengths, see parse_length(). Errors: kind option, naming tool.
+// Returns the tool described by a text: "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP". ANGLE
+// is in degrees; DIAMETER and TIP are lengths for parse_length(). Errors: kind option, naming tool.
 Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns the text of the tool for parse_tool(), in millimetres.
+// Returns the tool as a text that parse_tool() reads, in millimetres.
 std::string text_of(const Tool& tool);
 
 // Returns the height of the tool's surface above its lowest point, in mm, at that distance from its axis;
@@ -41,15 +41,15 @@ double tool_profile(const Tool& tool, double distance_mm);
 // without material, where nothing obstructs the tool, and remains NaN. The tool's axis visits the samples,
 // and positions outside the image up to the tool's radius. The radius is limited to half the longer side of
 // the image; a V tool's flank is limited to the range of the heights. The result is exact at the samples.
-// Positions between samples are not visited, so the height at which a ball of radius R touches has an error
-// of up to step_mm^2 / (8 R) on gentle slopes, and up to half a step times the slope on walls. Takes about
-// 0.5 s for 4M samples and a radius of 15 samples on two cores.
+// Positions between samples are not visited. So the height at which a ball of radius R touches has an error
+// of up to step_mm^2 / (8 R) on gentle slopes. On walls the error is up to half a step times the slope. Takes
+// about 0.5 s for 4M samples and a radius of 15 samples on two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
 
 struct ToolReach {
   double reached_share = 1;        // share of the front's area that the tool reaches within the tolerance
   double largest_residual_mm = 0;  // largest height of material that is left on the front
-  double tolerance_mm = 0;         // 0.01, or an eighth of a sample if that is more
+  double tolerance_mm = 0;         // 0.01, or an eighth of mm_per_sample if that is more
   double mm_per_sample = 0;  // a twelfth of the tool's radius, but in [1/4096, 1/2048] of the longer side
   Image<float> heights_mm;   // heights of the front above its lowest point; NaN where there is no front
   Image<float> residual_mm;  // height of material that is left on the front; NaN where there is no front

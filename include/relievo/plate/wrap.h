@@ -1,4 +1,4 @@
-// Bodies around which a finished plate is bent, including its thickness.
+// Describes bodies around which a finished plate is bent, and computes the bent positions.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct WrapOptions {
   WrapKind kind = WrapKind::none;
   std::optional<double> diameter_mm;  // diameter of the bent ground; for a cone, in the middle of the plate
   std::optional<double>
-      turn_deg;           // angle that the plate covers, instead of a diameter; default 180, sphere 120
+      turn_deg;           // angle that the plate covers, instead of a diameter; default: 180, sphere: 120
   double angle_deg = 10;  // cone: angle between its side and its axis; positive if it is narrow at the top
   double direction_deg = 90;  // direction of the axis, counter-clockwise from x; 90 is vertical
   bool is_inside = false;     // whether the relief is on the inner side

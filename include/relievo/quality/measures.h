@@ -1,5 +1,5 @@
-// Measures of how much of its model a relief shows, and of its faults. docs/quality.md defines each measure
-// and gives its source.
+// Measures how much of its model a relief shows, and its faults. docs/quality.md defines each measure and
+// gives its source.
 #pragma once
 
 #include <array>
@@ -21,13 +21,13 @@ struct Measures {
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
   std::array<double, 3> detail{};  // correlation of div n after Gaussian blurs of 1, 2 and 4 pixels, [-1, 1]
   double order = 0;  // share of random pairs, with depths more than 1 % apart, that keep their depth order
-  double near_order = 0;  // the same for pairs at a distance of 3 to 10 % of the longer side
+  double near_order = 0;  // the same share for pairs at a distance of 3 to 10 % of the longer side
 
   double halo = 0;                 // standard deviation of heights in the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels steeper than 80 degrees
-  double height_used = 0;          // height from the 1st to the 99th percentile, as a share of `height`
+  double height_used = 0;          // height between the 1st and the 99th percentile, as a share of `height`
   double jump_step = 0;            // largest step at a depth jump of the model, as a share of `height`
-  double rim_step = 0;             // largest height one edge inside the silhouette, as a share of `height`
+  double rim_step = 0;             // largest height one edge away from the silhouette, as a share of `height`
   double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette about its moving mean
   double jump_fray_deg = 0;        // the same scatter on both sides of depth jumps
   double facet_angle_deg = 0;  // 99th percentile of the angles between triangles where the model is smooth
@@ -39,7 +39,7 @@ struct Measures {
 class ReliefMetrics {
  public:
   static constexpr int longer_side_px = 512;
-  static constexpr int margin_px = 8;  // width of the background around the model
+  static constexpr int margin_px = 8;  // width of the background around the model, in pixels
 
   // Keeps a reference to the surface, which must outlive this object. If the surface has no area, no pixels
   // are measured.
@@ -51,7 +51,7 @@ class ReliefMetrics {
   // pixel is far enough from silhouette and jumps; correlations with a constant are 0.
   Measures measure(std::span<const double> heights) const;
 
-  // Returns only Measures::shading, in a fraction of the time; also for level heights.
+  // Returns only Measures::shading, in a fraction of the time. Level heights are allowed.
   double shading(std::span<const double> heights) const;
 
   // Returns the number of measured pixels.

@@ -8,19 +8,20 @@
 
 namespace relievo {
 
-// Returns the attention of every point, in [0, 1]; 0 everywhere on a surface without curvature. Differences of two
-// Gaussian means of the curvature, along the surface and at five widths, are weighted so that widths with few strong
-// maxima count most (Lee, Varshney and Jacobs, Mesh saliency, 2005). Their sum is multiplied by a Gaussian around the
-// middle of the view, smoothed, and scaled. Such models predict poorly where people look, see docs/method.md.
+// Returns the attention of every point, in [0, 1]; 0 everywhere on a surface without curvature. The curvature
+// is blurred along the surface by Gaussians, and the differences of two blurs are taken at five widths. A
+// width whose difference has few strong maxima gets a large weight (Lee, Varshney and Jacobs, Mesh saliency,
+// 2005). The weighted sum is multiplied by a Gaussian around the middle of the view, smoothed, and scaled.
+// Models of this kind predict only poorly where people look, see docs/method.md.
 std::vector<float> attention(const Surface& surface);
 
-// Levels are the attention minus its mean, in steps of 1 / attention_steps; level 0 is -1.
+// A level is the attention minus its mean, in steps of 1 / attention_steps from -1, which is level 0.
 inline constexpr int attention_steps = 256, attention_levels = 2 * attention_steps + 1;
 
-// Returns the level of every value of an attention.
+// Returns the level of each value of an attention.
 std::vector<std::uint16_t> levels_of(const std::vector<float>& attention);
 
-// Returns the attention minus its mean at a level, in [-1, 1].
+// Returns the attention minus its mean, in [-1, 1], that a level stands for.
 inline double attention_at(int level) {
   return static_cast<double>(level) / attention_steps - 1;
 }

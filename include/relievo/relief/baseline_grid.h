@@ -1,6 +1,6 @@
-// Baselines at their best: each relief uses the parameters of a grid that give it the best shading. The
-// program's command `compare` and docs/quality.md show these. The methods with the same names have fixed
-// parameters.
+// Finds the best reliefs of the baselines: each relief uses the parameters of a grid that give it the best
+// shading. The program's command `compare` and docs/quality.md show these reliefs. Methods with the same
+// names as baselines have fixed parameters.
 #pragma once
 
 #include <string>
@@ -28,14 +28,16 @@ struct TunedRelief {
   double shading = 0;  // Measures::shading
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names(); `system`
-// is the system of all points of the surface. Errors: kind geometry if the baseline has no height that could
-// be scaled. Messages give heights in millimetres; one unit is `unit_mm`.
 struct BaselineInput {
   const Surface& surface;
   const HeightSystem& system;
   const ReliefMetrics& metrics;
 };
+
+// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names(); `system`
+// is the system of all points of the surface. Errors: kind geometry if the baseline's relief is flat and
+// cannot be scaled. Messages give heights in millimetres; `unit_mm` is the number of millimetres per unit of
+// the surface.
 Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
                                   double unit_mm);
 

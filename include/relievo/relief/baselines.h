@@ -1,6 +1,6 @@
-// Baselines that are methods for users: published methods of other authors. Each follows its paper, and uses
-// the same visible points, normals and height system as layered reliefs, with fixed parameters that gave good
-// results for our scans. baseline_grid.h compares these and other baselines at their best.
+// Makes reliefs by baselines: published methods of other authors that users can choose. Each follows its
+// paper, and uses the same visible points, normals and height system as layered reliefs, with fixed
+// parameters that suit our scans. baseline_grid.h compares these and other baselines at their best.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ struct GradientOptions {
 };
 
 // Returns a slope per point. Gradients at silhouettes are removed, all others are attenuated (see
-// attenuated()), and their frequency bands are weighted. The gradients are computed from the scan's normals,
-// so they have no noise of a height map, and none has to be removed at a depth jump.
+// attenuated()), and their frequency bands are weighted. The gradients are computed from the scan's normals.
+// Gradients of a height map would be noisy and would have to be removed at depth jumps.
 std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
 
 // Returns the slope (dz/dx, dz/dy) of a surface with this normal, z > 0, limited to 1e3.

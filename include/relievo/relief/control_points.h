@@ -1,6 +1,5 @@
-// Control points: a few thousand visible points that represent all visible points. They follow
-// section 4.2 of the paper, but are denser at the boundary; the source file src/paper/control_points.h has
-// the paper's.
+// Control points are a few thousand visible points that represent all visible points. They follow section 4.2
+// of the paper, but are denser at the boundary. src/paper/control_points.h has the paper's own points.
 #pragma once
 
 #include <span>

@@ -12,8 +12,8 @@ namespace relievo {
 // Returns the slope (rise over run) of a wall whose angle to the vertical is `draft_deg`, in (0, 90) degrees.
 double slope_at_draft(double draft_deg);
 
-// The slopes of reliefs are reduced below this share of the limit. A thousandth remains for the rounding of
-// all later steps.
+// The slopes of reliefs are reduced below this share of the limit. The remaining thousandth of the limit is
+// for the rounding of all later steps.
 inline constexpr double kept_slope = .999;
 
 struct DraftOptions {
@@ -23,20 +23,20 @@ struct DraftOptions {
   std::span<const double> base = {};
 };
 
-// The requested relief, as for make_by_method().
+// The requested relief; see make_by_method() for these values.
 struct DraftOrder {
   Method method = Method::layered;
   Shape shape;
-  double height = 0;   // as for make_by_method()
+  double height = 0;   // in units of the surface
   double unit_mm = 1;  // millimetres per unit of the height, for messages
 };
 
 // Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means the
 // smallest sum over all triangles of squared slope changes, where slopes above twice the limit count as twice
 // the limit. Boundary points stay on the base. A relief within the limit is returned unchanged, bit for bit.
-// Any other relief is reduced to a thousandth below the limit, so that it also satisfies the limit in single
-// precision. Takes about 0.5 s for 160k points. Errors: kind geometry if the base alone is steeper; those of
-// HeightSystem::build(); kind cancelled.
+// The slopes of any other relief are reduced to a thousandth below the limit, so that it also satisfies the
+// limit in single precision. Takes about 0.5 s for 160k points. Errors: kind geometry if the base alone is
+// steeper; those of HeightSystem::build(); kind cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);
 

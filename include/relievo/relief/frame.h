@@ -1,5 +1,5 @@
-// Frames: reliefs made from a prepared model in milliseconds, in single precision. ReliefModel makes final
-// reliefs in double precision.
+// Makes frames, which are reliefs of a prepared model, in milliseconds and single precision. ReliefModel
+// makes final reliefs in double precision.
 #pragma once
 
 #include <memory>
@@ -17,29 +17,29 @@ namespace relievo {
 // ReliefOptions.
 struct FrameOptions {
   Shape shape = layered_shape();
-  // A locked height in units of the cloud: u is searched for it. mm_per_unit() in make_relief.h gives the
-  // conversion.
+  // The height of the frame in units of the cloud. If it is set, make() searches for the u that gives it.
+  // mm_per_unit() in make_relief.h gives the conversion to millimetres.
   std::optional<double> height = {};
-  double height_tolerance = 5e-4;  // relative to the locked height; a larger tolerance can save a solve
+  double height_tolerance = 5e-4;  // relative error of `height`; a larger tolerance can save a solve
 
   bool operator==(const FrameOptions&) const = default;
 };
 
 struct FrameTimes {
-  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve; the sum over all solves
-  double after_solve_s = 0;  // t2: detail or height correction, and extension from control points
+  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve, summed over all solves
+  double after_solve_s = 0;  // t2: detail or height correction, and extension to all points
   double normals_s = 0;      // t3: normals
-  int solves = 0;            // number of solves: 1, or more for a locked height
+  int solves = 0;            // number of solves: 1, or more for a given height
 };
 
 struct Frame {
   FrameOptions options;           // the effective options, including the u that was found
   std::vector<float> heights;     // heights of the surface's points, in the cloud's units
   std::vector<Vec3f> normals;     // unit normals: area-weighted means over the triangles around a point
-  double height = 0;              // highest minus lowest height; 0 counts as a height
-  float lowest = 0, highest = 0;  // lowest and highest number among `heights` and 0
+  double height = 0;              // highest minus lowest height, the base's height 0 included
+  float lowest = 0, highest = 0;  // lowest and highest height, 0 included
   bool is_height_met =
-      true;  // false if a locked height is out of reach; the relief is then as high as possible
+      true;  // false if no u gives the height of the options; the relief is then as high as possible
   FrameTimes times;
 };
 
@@ -56,21 +56,20 @@ class FrameMaker {
   ~FrameMaker();
 
   // Overwrites `frame` with the requested relief. The same options give the same bits for any number of
-  // threads. With a locked height, the bits also depend on the previous frames, because the search for u
-  // starts from the last result. Without one, they do not.
+  // threads. If the options have a height, the bits also depend on the previous frames, because the search
+  // for u starts from the last result.
   void make(const FrameOptions& options, Frame& frame);
 
-  // Makes frames in a pipeline, as in section 3.5 of the paper; its three stages run at once, on up to three
-  // threads. At the same time the heights of the requested frame are solved, the previous frame is mapped to
-  // all points, and the frame before that gets its normals and is written to `frame`. Returns false, and no
-  // frame, in the first two calls and in the first two calls after make(). Frames have the same bits as those
-  // of make(). The pipeline is used for models of Method::paper and options without a height; other frames
-  // are made by make(), in the same call.
+  // Makes frames in a pipeline of three stages, as in section 3.5 of the paper. The stages run at the same
+  // time on up to three threads: one solves the heights of the requested frame, one extends the previous
+  // frame to all points, and one computes the normals of the frame before the previous one and writes it to
+  // `frame`. Returns false, and no frame, in the first two calls and in the first two calls after make().
+  // Frames have the same bits as those of make(). The pipeline is used only for models of Method::paper and
+  // options without a height. For all others this function calls make().
   bool make_ahead(const FrameOptions& options, Frame& frame);
 
   // Writes a gain for each point of the last frame: the derivative of the relief's slope with respect to the
-  // x and y of the scan's normal. Gains apply to normals at a scale that the points do not resolve, see
-  // SurfaceDetail in render.h.
+  // x and y of the scan's normal. Gains are for detail that is finer than the points, see SurfaceDetail.
   void write_gains(std::vector<float>& gains) const;
 
   // Returns the number of bytes of memory in use, without the model.

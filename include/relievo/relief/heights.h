@@ -1,5 +1,5 @@
-// Heights (stage 8): computes the surface that fits given slopes. This is our form of the paper's equation
-// (9); the source file src/paper/heights.h has the paper's.
+// Computes heights (stage 8): the surface that fits given slopes by our form of the paper's equation (9).
+// src/paper/heights.h has the paper's own form.
 #pragma once
 
 #include <memory>
@@ -27,10 +27,9 @@ class HeightSystem {
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies the data that it needs from its arguments. `weights` has a weight per point, in (0, 1], or is
-  // empty for weights of 1. The weight of an edge is multiplied by the mean weight of its two ends. Fails
-  // only as solver::Cholesky::factor() fails, which does not happen for a Delaunay triangulation with its
-  // boundary.
+  // Copies the data that it needs from its arguments. `weights` has a weight per point, in (0, 1]; if it is
+  // empty, all weights are 1. The weight of an edge is multiplied by the mean weight of its two ends. Errors:
+  // those of solver::Cholesky::factor(), which do not occur for a Delaunay triangulation with its boundary.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 
@@ -42,8 +41,8 @@ class HeightSystem {
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Returns the matrix of the right-hand side. It has an entry for every pair of neighbours and for every
-  // point with itself. Other matrices over the same points reuse its pattern.
+  // Returns the matrix that gives the right-hand side from the slopes. It has entries for pairs of neighbours
+  // and on the diagonal. Other matrices over the same points reuse its sparsity pattern.
   const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. The solution is
@@ -61,8 +60,8 @@ class HeightSystem {
   HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges);
 
   solver::Cholesky factor_;
-  // Coefficients of the right-hand side: half an edge's weight times the vector from the other point; 0 at
-  // boundary points.
+  // The coefficient of the right-hand side for a pair of neighbours: half the edge's weight times the vector
+  // from the neighbour to the point. Rows of boundary points are 0.
   std::unique_ptr<const SlicedEllMatrix> edges_;
 };
 

@@ -12,7 +12,8 @@
 
 namespace relievo {
 
-// The x and y of one layer, rounded to 1/16384 and clamped to [-2, 2], in half the memory of two floats.
+// The x and y of one layer of a normal. Each is stored as an integer in units of 1/16384 and clamped to [-2,
+// 2], which needs half the memory of two floats.
 class LayerXy {
  public:
   static constexpr float unit = 0x1p-14F;
@@ -36,7 +37,7 @@ struct PointLayers {
   LayerXy fine, middle, coarse, broad;
 };
 
-// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up
+// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because slopes there use up
 // height but add little shading.
 Vec2f faded_xy(const Vec3f& normal);
 
@@ -47,7 +48,7 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
 // second factor compensates for the contrast that the height correction removes.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
-  float height_share = 1;  // relievo::height_share()
+  float height_share = 1;  // see relievo::height_share()
 
   // Returns the weights for u in [0, infinity]. `detail` >= 0 is Shape::gamma. It multiplies u for the
   // middle, coarse and broad layers by exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all

@@ -1,5 +1,6 @@
-// The methods for making a relief, their names, and the numbers of points that they use. To add a baseline,
-// add an enumerator, a declaration and a table entry here, and implement it in src/relief/baselines/.
+// Declares the methods for making a relief, their names, and the numbers of points that they use. To add a
+// baseline, add an enumerator, a declaration and a table entry here, and implement it in
+// src/relief/baselines/.
 #pragma once
 
 #include <array>
@@ -24,7 +25,7 @@ enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 // Relief::shape has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
-// baselines.h declares variants with options.
+// Each function is a baseline with default options. baselines.h declares variants with options.
 Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;
 
 struct MethodInfo {
@@ -63,9 +64,10 @@ bool has_shape(Method method);
 // Returns the default shape of a method with has_shape(), for a requested height.
 Shape default_shape(Method method);
 
-// Returns the relief of that height by that method: by ReliefModel::make_at_height(), or by a baseline with
-// default options, which uses only the strokes and the line depth of `shape`. Errors: those of
-// make_at_height(); kind option if the method needs the system of all points and the model does not have it.
+// Returns the relief of that height by that method. Methods with has_shape() use
+// ReliefModel::make_at_height(). A baseline has its default options, and uses only the strokes and the line
+// depth of `shape`. Errors: those of make_at_height(); kind option if the method needs the system of all
+// points and the model does not have it.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 
@@ -81,7 +83,7 @@ inline constexpr std::array<Choice<Mode>, 3> mode_choices{
 
 inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
 
-// The options of a model. They determine which reliefs can be made, and how fast.
+// The options for preparing a model. They determine which reliefs the model can make, and how fast.
 struct ModelOptions {
   Mode mode = Mode::exact;
   std::size_t control_points = usual_control_points;  // approximate number in subspace mode

@@ -1,4 +1,5 @@
-// Reliefs of a surface. A model is prepared once and makes reliefs with many shapes. Stages 7 to 12 and 14.
+// Makes reliefs of a surface (stages 7 to 12 and 14). A ReliefModel is prepared once and makes reliefs with
+// many shapes.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +27,7 @@ struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest height, including detail; 0 counts as a height
+  double height = 0;            // h: highest minus lowest height with detail, the base's 0 included
   Shape shape;                  // the shape of the relief
 };
 
@@ -73,8 +74,8 @@ class ReliefModel {
   // Returns the number of control points in subspace mode; 0 in exact mode.
   std::size_t control_points() const;
 
-  // Returns the layers of the surface's normals; empty in subspace mode, whose control points have their own
-  // layers.
+  // Returns the layers of the surface's normals. The list is empty in subspace mode, because control points
+  // have their own layers.
   std::span<const PointLayers> layers() const;
 
   // Return the system of all points (exact mode) or the model of the control points (subspace mode). The
@@ -82,13 +83,13 @@ class ReliefModel {
   const HeightSystem* system() const;
   const SubspaceModel* subspace() const;
 
-  // Returns the heights that Shape::steps adds at depth jumps.
+  // Returns the step heights that Shape::steps adds at depth jumps.
   const StepHeights& steps() const;
 
-  // Returns the steps that Shape::planes adds in layered reliefs.
+  // Returns the step heights that Shape::planes adds in layered reliefs.
   const StepHeights& planes() const;
 
-  // Returns the models of a scene that have a requested height of their own.
+  // Returns the models of a scene that have a Pose::height.
   const OwnHeights& own_heights() const;
 
   // Returns the correction that compresses the heights of layered reliefs.
@@ -100,13 +101,14 @@ class ReliefModel {
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height, including detail, is `height`. Searches u of the compression for that,
-  // while beta, gamma and the slope limit stay as requested (the intent of Algorithm 1, section 3.6). If no u
-  // gives that height, u is infinite, and depth jumps of at most their real depth supply the missing height;
-  // Shape::steps of the result is their share. In models of Method::paper, beta changes, too, if
-  // Shape::is_beta_free is set, and depth jumps supply nothing; see search_paper_height() in the source file
-  // src/relief/paper_relief.h. Errors: kind geometry if no relief has that height; the message states the
-  // largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
+  // Returns the relief whose height, including detail, is `height`. Searches for the u of the compression
+  // that gives this height. beta, gamma and the slope limit stay as requested, which is the intent of
+  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps, of at most
+  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. In
+  // models of Method::paper, beta changes, too, if Shape::is_beta_free is set, and there are no such steps;
+  // see search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no
+  // relief has that height; the message states the largest possible height in millimetres, for `unit_mm`
+  // millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 
@@ -118,8 +120,8 @@ class ReliefModel {
   std::unique_ptr<State> state_;
 };
 
-// Sets the heights of the models of a scene that have a requested height of their own, as a last step.
-// ReliefModel does this itself; baselines need this call.
+// Sets the heights of the models of a scene that have a requested height of their own, see Pose::height. This
+// is the last step of a relief. ReliefModel does it itself; baselines need this call.
 void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
-// The parameters that shape a relief. All of them can change from frame to frame, because the prepared model
-// does not depend on them.
+// Defines the parameters that shape a relief. All of them can change from frame to frame, because the
+// prepared model does not depend on them.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ struct Stroke;
 class ToneCurve;
 
 enum class Style {
-  // Equations (5) to (7), and detail added to the heights. For a surface from find_surface() these are the
-  // paper's rules on our points and edges, used for coarse reliefs of a turned model and for the reference
-  // heights of SubspaceModel. Models of Method::paper make their reliefs by ReliefModel::paper(), for either
-  // style.
+  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), the paper's
+  // rules are applied to our points and edges; this is for coarse reliefs of a turned model and for the
+  // reference heights of SubspaceModel. Models of Method::paper make their reliefs by ReliefModel::paper(),
+  // for either style.
   paper_weights,
   layered  // normals compressed layer by layer, fine layers least; heights compressed by HeightCorrection
 };
@@ -27,8 +27,8 @@ enum class Style {
 struct Compression {
   double u = 1;     // [0, infinity]; 0 gives a flat relief, infinity keeps all normals (with curvature)
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points equally
-  // If set, it replaces the exponential of (6): w_k = 1 - (1 - curve(|k|))^u. So u still determines the
-  // height; at u = 1 the curve is the share that is kept. Beta then has no effect.
+  // If set, the curve replaces the exponential of equation (6): w_k = 1 - (1 - curve(|k|))^u. So u still
+  // determines the height; at u = 1, w_k is the value of the curve. Beta then has no effect.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
   // Curves are equal if they have the same points.
@@ -51,16 +51,16 @@ struct Shape {
   Compression compression;    // height and saturation
   double gamma = 0;           // detail coefficient, [0, 1]; in the layered style it attenuates coarse layers
   double max_slope = 4;       // largest target slope, > 0; 4 is 76 degrees
-  double boundary_width = 2;  // width of (7), in units of rho, > 0; larger widths soften the rim
-  // Least share of the height for depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do not reach a
-  // requested height, jumps supply the rest.
+  double boundary_width = 2;  // width of the soft rim by equation (7), in units of rho, > 0
+  // Least share of the height for steps at depth jumps, [0, 0.95]; 0 removes the jumps. If slopes alone do
+  // not reach a requested height, these steps add the rest.
   double steps = 0;
   Style style = Style::paper_weights;
   // Whether the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
   bool is_beta_free = false;
   // The height of the relief, as a share of the height that (9) gives for its slopes, (0, 1];
-  // usual_height_share() if not set. A smaller share shows more of the model. This and the following members
-  // are used only by the layered style.
+  // usual_height_share() if not set. A smaller share shows more of the model's shapes. This and the following
+  // members are used only by the layered style.
   std::optional<double> height_share = {};
   bool is_corrected = true;  // whether HeightCorrection compresses the heights
   // Least step of a part above the surface behind it and above the base, as a share of the height, [0, 0.3].
@@ -70,10 +70,10 @@ struct Shape {
   // Exponent of the attention, [0, 4]: u of the fine and middle layers is multiplied by exp(attention (A - mean A)),
   // where A in [0, 1] estimates where viewers look; 0 treats all parts alike. Only for exact models.
   double attention = 0;
-  // Local changes of the finished heights, for all methods except the paper's. If they change the highest
-  // point, all heights are scaled, so that the height of the relief stays.
+  // Local changes of the finished heights, for all methods except the paper's. If a stroke changes the
+  // highest point, all heights are scaled, so that the height of the relief stays the same.
   SharedStrokes strokes = {};
-  // The depth, in the surface's units, >= 0, of lines that are dark in the scan's colours.
+  // The depth by which lines that are dark in the scan are lowered, in the surface's units, >= 0.
   double line_depth = 0;
 
   bool operator==(const Shape&) const = default;

@@ -1,4 +1,4 @@
-// Strokes: local changes of a relief that users paint onto the model.
+// Defines strokes, which are local changes of a relief that users paint onto the model.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@
 
 namespace relievo {
 
-// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside of the
-// stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross depth jumps. A
-// scene in which a model has its own height refuses `protect`.
+// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside
+// of the stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross
+// depth jumps. `protect` is an error in a scene in which a model has its own height.
 enum class Brush {
   strengthen,  // adds amount * (z - wide blur of z), which emphasises shapes as wide as a finger or a brow
   sharpen,     // adds amount * (z - narrow blur of z)
@@ -22,8 +22,10 @@ enum class Brush {
   raise,       // adds amount * height of the relief
   sink,        // subtracts amount * height of the relief
   level,       // adds amount * (mean height under the stroke - z)
-  protect,     // replaces that share of the height correction by its best plane, so that it flattens no shape
-  in_front  // raises the stroke as a whole until it is amount * height above what is behind it across depth jumps
+  // Removes the share `amount` of the height correction, except for the plane that fits it best. So the
+  // correction flattens no shape.
+  protect,
+  in_front  // raises the stroke as a whole until it stands amount * height above the surface behind it
 };
 
 inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::strengthen},
@@ -37,9 +39,11 @@ inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::str
 
 // The points that belong to a stroke.
 enum class StrokeArea {
-  line,   // the points within the radius of a line
-  lasso,  // what a closed line encloses for the viewer who drew it; beyond half of its size, nothing behind it
-  region  // the points around the first corner, as far as the surface turns less than the tolerance
+  line,  // the points within the radius of a line
+  // The points inside a closed line, as the viewer saw it who drew it. Points that are deeper behind the line
+  // than half of its size are left out.
+  lasso,
+  region  // the points around a single point, as far as the surface turns less than the tolerance
 };
 
 inline constexpr std::array<Choice<StrokeArea>, 3> stroke_areas{
@@ -48,14 +52,14 @@ inline constexpr std::array<Choice<StrokeArea>, 3> stroke_areas{
 // Standard deviations of the two blurs, as shares of the longer side.
 inline constexpr double narrow_blur = .008, wide_blur = .03;
 
-// A line or an area on the model, and the change there. It belongs to the model, so it has the same position in
-// other views, where it affects the visible part of the model.
+// A line or an area on the model, and the change there. A stroke is fixed to the model: in other views it is
+// at the same place of the model, and changes the points that are visible there.
 struct Stroke {
   std::string name;
   Brush brush = Brush::soften;
-  double amount = 1;  // [0, 1]; strengthen and sharpen: [0, 4]
-  // Largest distance from the line, in the units of the scan, > 0. In other areas, the change fades out over as much
-  // inside of their edge.
+  double amount = 1;  // factor of the change, see Brush: [0, 1]; strengthen and sharpen: [0, 4]
+  // Largest distance from the line, in the units of the scan, > 0. In a lasso or a region, the change has
+  // its full amount at this distance from the edge, or before.
   double radius = 0;
   double softness = 1;         // share of the radius over which the change fades out, [0.05, 1]
   bool is_muted = false;       // a muted stroke changes nothing
@@ -63,7 +67,7 @@ struct Stroke {
   StrokeArea area = StrokeArea::line;
   Vec3 direction =
       Vec3::Zero();      // of a lasso: towards the viewer who drew it, in the scan's axes; any length > 0
-  double tolerance = 6;  // of a region: degrees per 1 % of the longer side, [0.1, 180]
+  double tolerance = 6;  // of a region: most turning, in degrees per 1 % of the longer side, [0.1, 180]
 
   bool operator==(const Stroke&) const = default;
 };

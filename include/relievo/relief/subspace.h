@@ -1,6 +1,6 @@
-// Our subspace mode, after the paper's (stages 7, 8 and 10): reliefs from a few thousand control points. The
-// time for a relief depends little on the size of the cloud. The source file src/paper/mapping.h has the
-// paper's mapping.
+// Our subspace mode, which follows the paper's (stages 7, 8 and 10), makes reliefs from a few thousand
+// control points. The time for a relief depends little on the size of the cloud. src/paper/mapping.h has the
+// paper's own mapping.
 #pragma once
 
 #include <memory>
@@ -55,7 +55,7 @@ class SubspaceModel {
 
   // Results that the caller may already have. prepare() computes those that are empty.
   struct Known {
-    std::span<const double> reference = {};    // reference_heights() for the same max_slope
+    std::span<const double> reference = {};    // reference_heights() for the same max_slope as in the options
     std::span<const PointLayers> layers = {};  // normal_layers() of the surface
   };
 
@@ -92,7 +92,7 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + (common ratio of all control points) * overall.
+  // The ratio of a control point is z_c * own + common * overall; `common` is the same for all of them.
   struct RatioTerm {
     float own = 0, overall = 0;
   };

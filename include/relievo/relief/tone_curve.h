@@ -1,5 +1,5 @@
-// Saturation as a tone curve drawn by the user: the share of a normal that is kept, as a function of the
-// curvature |k|.
+// Defines the saturation as a tone curve that the user draws. The curve is the share of a normal that is
+// kept, as a function of the curvature |k|.
 #pragma once
 
 #include <string>

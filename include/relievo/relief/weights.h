@@ -1,6 +1,6 @@
-// Normal space compression: the share of each normal in the relief, by equations (5) to (7) of the paper, as
-// the methods other than Method::paper use them. The source file src/paper/compression.h has the weights of
-// Method::paper, which follow the paper to the letter.
+// Computes normal space compression: the share of each normal in the relief, by equations (5) to (7) of the
+// paper. All methods except Method::paper use it in the form of this header. src/paper/compression.h has the
+// weights of Method::paper, which follow the paper to the letter.
 #pragma once
 
 #include <algorithm>
@@ -45,26 +45,26 @@ Eigen::Vector2<Real> compressed_slope(const std::type_identity_t<Eigen::Vector3<
 struct SlopeInput {
   std::span<const Vec3f> normals;
   std::span<const float> k;                  // normalised mean curvature
-  std::span<const float> boundary_weight;    // w_b
+  std::span<const float> boundary_weight;    // w_b of equation (7)
   double delta = 0;                          // standard deviation of |k|
   std::span<const PointLayers> layers = {};  // only for the layered style
   std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
   std::span<const std::uint16_t> attention =
-      {};  // levels_of() the attention; empty if the shape asks for none
+      {};  // levels_of() the attention; empty if the shape has no attention
 };
 
 // Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
-// For the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by
-// w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
+// For the layered style it is layered_slope() with layer_weights(shape). Then the layers are also multiplied
+// by w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
-// Returns the layer weights of a layered shape; the second function those of points whose attention differs from its
-// mean by `more_attention`.
+// Return the layer weights of a layered shape: the first function for points of mean attention, the second
+// for points whose attention is above the mean by `more_attention`.
 LayerWeights layer_weights(const Shape& shape);
 LayerWeights layer_weights(const Shape& shape, double more_attention);
 
-// Separate the saturation from a compression c. The factor of saturation or tone curve for a layered slope is
-// saturation_scale(c) times w_k of saturation_alone(c). It is 1 everywhere for saturation 0.
+// Separate the saturation from a compression c. In the layered style, the saturation or tone curve multiplies
+// layers by saturation_scale(c) times w_k of saturation_alone(c), which is 1 for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

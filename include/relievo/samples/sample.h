@@ -1,4 +1,4 @@
-// Generated scans for trying the program, because the licences of real scans forbid shipping them.
+// Generates scans for trying the program, because the licences of real scans forbid shipping them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Boundary (stage 5): the triangles that belong to the relief, and the points where the relief meets the
-// base.
+// Finds the boundary (stage 5): the triangles that belong to the relief, and the points where the relief
+// meets the base.
 #pragma once
 
 #include <span>
@@ -16,8 +16,8 @@ struct Boundary {
   std::vector<std::uint8_t> is_boundary;  // per point: whether it is in P_b (silhouette and rims of holes)
   // The distance of each point from the nearest point of P_b in the view plane: `dist` of equation (7).
   std::vector<float> distance;
-  // Per point: whether it is on the front or the back edge of the wall at a depth jump, or on none; empty if
-  // there are no walls.
+  // For each point: whether it is on the front edge or the back edge of the wall at a depth jump, or on no
+  // wall. Empty if there are no walls.
   std::vector<WallSide> wall_side;
 
   bool is_across_wall(Index a, Index b) const {
@@ -29,12 +29,12 @@ struct Boundary {
 // Returns for each triangle whether it belongs to the relief. The arguments are points in the view plane,
 // their Delaunay triangulation, and their sampling distance rho.
 //
-// A triangle is outside if the radius of its circumcircle, which contains no points, exceeds 3 rho, unless
-// the triangle belongs to a narrow hole. A narrow hole is a connected set of such triangles that does not
-// touch the hull and has no radius above 5 rho. If the local spacing of all corners exceeds 2 rho, the scan
-// is sparse there, and that spacing replaces rho. `spacing` is Spacing::local of each point, for clouds of
-// uneven density. It must be empty for other clouds, because it would close gaps beside surfaces that are
-// seen edge-on.
+// A triangle is outside if the radius of its circumcircle exceeds 3 rho, because there are no points inside
+// that circle. A triangle of a narrow hole is not outside. A narrow hole is a connected set of triangles with
+// radii from 3 to 5 rho that does not touch the hull. If the local spacing of all three corners exceeds 2
+// rho, the scan is sparse there, and the local spacing replaces rho. `spacing` is Spacing::local of each
+// point, for clouds of uneven density. For other clouds, `spacing` must be empty, because it would close gaps
+// beside surfaces that are seen edge-on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 

@@ -1,4 +1,4 @@
-// Clouds of scattered points, and operations that need no view.
+// Defines clouds of scattered points, and operations that need no view.
 #pragma once
 
 #include <optional>
@@ -10,8 +10,8 @@
 
 namespace relievo {
 
-// A part of an outline. Seen by the viewer, the visible surface is on its left. On its right there is nothing
-// or, at a jump, a surface farther behind.
+// A part of an outline. As the viewer sees it, the visible surface is on the left side of the segment. On its
+// right side there is nothing or, at a depth jump, a surface farther behind.
 struct OutlineSegment {
   Vec3 from, to;
   bool is_jump = false;
@@ -26,15 +26,15 @@ struct Cloud {
   std::vector<Colour> colours = {};
   // If the points were sampled from a mesh: its exact outlines in the view of the sampling; else empty.
   std::vector<OutlineSegment> outlines = {};
-  // Whether no point hides another seen from +Z, as in a depth image.
+  // Whether no point hides another point from a viewer on the +Z side, as in a depth image.
   bool is_height_field = false;
-  // Per point: Pose::height of its model in the scene, or 0 if that is not given; empty if no model has it.
+  // For each point: Pose::height of its model in the scene, or 0 without one. Empty if no model has one.
   std::vector<float> own_heights = {};
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
-  // For each point the direction in which the surface is thinnest there, as Gaussian splats state it, with any
-  // sign; zero where it is not known. Empty if the file states none. estimate_normals() uses it.
+  // For each point the shortest axis of its Gaussian splat, which is across the surface and may have either
+  // sign; zero where it is not known. Empty for other clouds. estimate_normals() uses the axes.
   std::vector<Vec3f> axes = {};
 
   std::size_t size() const { return points.size(); }
@@ -45,15 +45,15 @@ struct Cloud {
 // Returns the bounding box of all points; an empty box for an empty cloud.
 Box bounds(const Cloud& cloud);
 
-// Returns the indices, ascending, of points that cannot belong to the model: their distance from the median
-// of each coordinate is more than 20 times the distance within which 90 % of the points are. A single
-// outlier, for example at the origin of a georeferenced scan, would make the model tiny within its own box.
+// Returns the indices, ascending, of points that cannot belong to the model: their distance from the middle
+// (the median of each coordinate) is more than 20 times the distance within which 90 % of the points are. A
+// single outlier, for example at the origin of a georeferenced scan, would make the model tiny in its box.
 std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any
 // points are repeated. Points repeat each other if they are much closer to each other than to all other
-// points and their normals differ by at most 90 degrees, so that both sides of a thin sheet are kept. Normals
-// and colours are the means of the group.
+// points and their normals differ by at most 90 degrees. With this limit both sides of a thin sheet are kept.
+// Normals and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
 // Returns the cloud without the points whose indices are in `erased`, in ascending order.

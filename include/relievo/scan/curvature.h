@@ -1,4 +1,4 @@
-// Mean curvature of the surface through scattered points (stage 4).
+// Computes the mean curvature of the surface through scattered points (stage 4).
 #pragma once
 
 #include <span>
@@ -31,8 +31,8 @@ std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, s
 // Returns the average of the values over each point's neighbours in the view plane, weighted by the area that
 // each neighbour represents there. Three passes over the triangulation's edges with weights of exp(-(length /
 // rho)^2) spread a value by 1.5 rho (root mean square). At a depth jump, points of the surface in front and
-// of the one behind alternate in the plane. Without the average, their different curvatures would be visible
-// as specks along the edge.
+// points of the surface behind it alternate in the plane. Without the average, their different curvatures
+// would be visible as specks along the edge.
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho);

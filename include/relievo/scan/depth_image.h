@@ -1,4 +1,4 @@
-// Depth images from a depth camera, a renderer or a depth estimator, and their conversion into points.
+// Defines depth images from a depth camera, a renderer or a depth estimator, and converts them into points.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ inline constexpr std::array<Choice<DepthValues>, 5> depth_value_choices{
      {"auto", DepthValues::automatic}}};
 
 // Whether a part of a depth image that is often unwanted (background or blur) is kept or dropped. With
-// `automatic` the image decides.
+// `automatic`, the kind of image determines this.
 enum class Removal { keep, drop, automatic };
 
 inline constexpr std::array<Choice<Removal>, 3> removal_choices{
@@ -65,13 +65,13 @@ struct DepthOptions {
   int channel = 0;  // number of the channel to read, from 1; 0 for the only channel
   std::optional<DepthCamera> camera;
   double range = .5;  // without a camera: depth from the nearest to the farthest point, in picture widths
-  // The background lies behind a depth jump all around the figure. `automatic` keeps it for images with a
-  // camera and for heights. If there is no such jump, `drop` removes far depths, provided that they cover
-  // most of the border.
+  // The background lies behind a depth jump all around the figure. `automatic` keeps the background of images
+  // with a camera and of images of heights. If there is no such jump, `drop` removes far depths, provided
+  // that they cover most of the image's border.
   Removal background = Removal::automatic;
   // Blur is a run of points between two surfaces that belong to neither surface. `drop` removes runs of at
-  // most 12 points. `automatic` does the same in images of depth cameras, keeps all points of height images,
-  // as their walls are part of the surface, and removes runs of at most 3 points in all other images.
+  // most 12 points. `automatic` does the same in images of depth cameras. It keeps all points of height
+  // images, because their walls are part of the surface. In other images it removes runs of up to 3.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this many points
 
@@ -90,13 +90,13 @@ struct DepthCloud {
   Cloud cloud;                 // seen from +Z, +Y up, in pixels; all normals face the viewer
   int reduction = 1;           // each point represents reduction x reduction pixels
   std::size_t missing = 0;     // number of pixels without a depth
-  std::size_t marked = 0;      // number of these pixels with a value that marks missing depths, such as 1e10
-  double marker = 0;           // that value; the largest if there are several
+  std::size_t marked = 0;      // the part of `missing` whose value marks a missing depth, such as 1e10
+  double marker = 0;           // the value that marks a missing depth; the largest if there are several
   std::size_t background = 0;  // number of points removed with the background
   std::size_t blur = 0;        // number of points removed as blur
   double noise = 0;            // median uncertainty of a depth, in pixels
-  // One value per block of reduction x reduction pixels. The kept ones are the points, in this order. A
-  // picture from picture_cloud() also has points for missing ones.
+  // One value per block of reduction x reduction pixels. The kept pixels are the points, in this order. For a
+  // picture from picture_cloud(), missing pixels are points, too.
   Image<PixelUse> uses;
 };
 
@@ -113,8 +113,8 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
 
 // Returns a picture as flat points with grey colours for a lithophane: one point per pixel or block of
 // pixels, and black points along the outline of the picture. The brightest value is white, the darkest black;
-// missing values are white. Of the options only `points` is used. Errors: those of check(); kind geometry if
-// all values are equal.
+// missing values are white. Uses only options.points. Errors: those of check(); kind geometry if all values
+// are equal.
 Result<DepthCloud> picture_cloud(const DepthImage& image, const DepthOptions& options);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Triangle meshes, and sampling points from them.
+// Defines triangle meshes, and samples points from them.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct Mesh {
   // normals.
   std::vector<std::array<Vec3f, 3>> corner_normals = {};
   std::vector<Colour> colours = {};     // colours of the points, or empty
-  std::vector<float> own_heights = {};  // per point, as in Cloud; may be empty
+  std::vector<float> own_heights = {};  // per point, see Cloud; may be empty
 
   bool empty() const { return triangles.empty(); }
 };
@@ -30,8 +30,8 @@ struct Mesh {
 // Triangles without area have zero normals.
 std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg = 45);
 
-// Returns the corner normals for interpolation: the mesh's own or, if it has none or only those of its flat
-// triangles, smooth_normals().
+// Returns the corner normals for interpolation. These are the mesh's own normals. If it has none, or only the
+// normals of its flat triangles, they are smooth_normals().
 std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh);
 
 struct MeshSampling {

@@ -1,4 +1,4 @@
-// Normals of scattered points: estimates them and determines their signs.
+// Estimates the normals of scattered points and determines their signs.
 #pragma once
 
 #include <span>
@@ -10,13 +10,14 @@
 namespace relievo {
 
 // Returns n with unit length; zero if n is zero or not finite. A vector that has unit length up to float
-// rounding is returned unchanged, so that writing and reading it changes no bit.
+// rounding is returned unchanged, so that no bit changes when it is written to a file and read again.
 Vec3f unit_normal(const Vec3& n);
 
 // Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
-// (principal component analysis). If the cloud has axes, the plane agrees with these, too: points and axes count
-// by how little each of them scatters there. The sign is arbitrary until turn_to_viewer(). Does nothing to a
-// cloud of fewer than 3 points. Once the progress is cancelled, the remaining normals are 0.
+// (principal component analysis). If the cloud has axes, the normal also fits the axes of these neighbours.
+// Points or axes, whichever scatter less there, have more influence. The sign is arbitrary until
+// turn_to_viewer(). Does nothing to a cloud of fewer than 3 points. Once the progress is cancelled, the
+// remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that all have z >=

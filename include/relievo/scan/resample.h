@@ -1,4 +1,4 @@
-// Heights of one surface at the points of another, for comparing reliefs of different points.
+// Interpolates the heights of one surface at the points of another, to compare reliefs of different points.
 #pragma once
 
 #include <span>
@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Returns the height of the inside triangles of `from` at each point of `to`; 0 where there is none.
-// `heights` has a height per point of `from`. Both surfaces must show the same cloud in the same direction.
+// Returns for each point of `to` the height of the triangle inside the boundary of `from` at that place; 0
+// where there is no such triangle. `heights` has a height per point of `from`. Both surfaces must show the
+// same cloud in the same direction.
 std::vector<double> resampled(std::span<const double> heights, const Surface& from, const Surface& to);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// The contents of a scan file.
+// Defines the contents of a scan file.
 #pragma once
 
 #include <cstddef>
@@ -12,14 +12,14 @@ namespace relievo {
 
 struct CloudFile {
   Cloud cloud;  // only finite points, at least one; normals have unit length, or there are none
-  // For messages, such as "PLY binary little endian" or "XYZ text, 6 columns with normals".
+  // Name of the format, such as "PLY binary little endian" or "XYZ text, 6 columns with normals".
   std::string format;
   std::size_t dropped_points = 0;  // number of points removed because a coordinate was NaN or infinite
   // Number of points removed because all their coordinates were 0, which devices write for points that they
-  // have not measured. It is 0 if the file has faces, has at most 16 such points, or has no other points.
+  // have not measured. The number is 0 if the file has faces, at most 16 of these points, or no others.
   std::size_t unmeasured_points = 0;
-  // Number of further points with a zero, non-finite or missing normal. If they are a minority, these points
-  // are removed; otherwise all points are kept, and the cloud has no normals.
+  // Number of points with finite coordinates and a zero, non-finite or missing normal. If they are a
+  // minority, these points are removed; otherwise all points are kept, and the cloud has no normals.
   std::size_t dropped_normals = 0;
   // Number of points that the header promises, but that are missing because the file ends early.
   std::size_t missing_points = 0;

@@ -1,4 +1,4 @@
-// Sampling distance (stage 1): the spacing of points, locally and overall.
+// Measures the sampling distance (stage 1), which is the spacing of points, locally and overall.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@ namespace relievo {
 inline constexpr std::size_t spacing_neighbours = 8;
 
 struct Spacing {
-  // The median of `local` over all points, in the cloud's units; or a quarter of the 98 % quantile of `local`
-  // if that is more, as in clouds of very uneven density. It is 0 if there are fewer than 2 points or almost
-  // all points coincide.
+  // The larger of two numbers, in the cloud's units: the median of `local` over all points, and a quarter of
+  // its 98 % quantile, which is larger in clouds of very uneven density. rho is 0 if there are fewer than 2
+  // points or almost all points coincide.
   double rho = 0;
-  bool is_uneven = false;  // whether rho is not the median
+  bool is_uneven = false;  // whether rho is the quarter of the quantile
   // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other
-  // point and k is spacing_neighbours. It is the side of a square with the area per point. For randomly
-  // scattered points it is about twice the distance to the nearest neighbour.
+  // point and k is spacing_neighbours. It is the side of a square whose area is the area per point. For
+  // randomly scattered points it is about twice the distance to the nearest neighbour.
   std::vector<float> local;
   // The indices of each point's k nearest other points, nearest first; no_index if the cloud has fewer.
   std::vector<std::array<Index, spacing_neighbours>> nearest;

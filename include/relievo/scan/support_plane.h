@@ -1,4 +1,4 @@
-// The plane that supports a scanned figure or is behind it: a table, the ground or a wall.
+// Finds the plane that supports a scanned figure or is behind it: a table, the ground or a wall.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct SupportPlane {
 // `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and rho
 // is its sampling distance. A plane is a table if it is level from left to right and rises away from the
 // viewer; other planes that face the viewer are backgrounds. To exclude the faces of solids, nearly all other
-// points must be in front of the plane and above its points, and must rise far above it relative to their
-// extent. The result has the same bits for any number of threads.
+// points must be in front of the plane and above its points. They must also rise far above the plane,
+// compared with their extent. The result has the same bits for any number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);
 

@@ -1,4 +1,4 @@
-// The visible surface of a cloud in a view: stages 1 to 6.
+// Finds the visible surface of a cloud in a view (stages 1 to 6).
 #pragma once
 
 #include "relievo/core/progress.h"
@@ -15,17 +15,17 @@ namespace relievo {
 // space-filling curve, so that neighbours in the view plane are close in memory and the order of the cloud
 // has no influence.
 struct Surface {
-  std::vector<Vec3> points;             // R_view_model (p - centre)
+  std::vector<Vec3> points;             // R_view_model (p - centre) for points p of the cloud
   std::vector<Vec3f> normals;           // unit vectors with z > 0; (0, 0, 1) at hole-fill points
   std::vector<Colour> colours;          // colours of the points; empty if the cloud has none
-  std::vector<float> own_heights = {};  // as in Cloud; empty if the cloud has none
+  std::vector<float> own_heights = {};  // see Cloud; empty if the cloud has none
   NormalisedCurvature curvature;
   Triangulation triangulation;  // without `neighbours`
   Boundary boundary;
 
   View view;
   Vec3 centre = Vec3::Zero();                  // centre of the cloud's bounding box, in the model's axes
-  std::optional<double> units_per_value = {};  // as in Cloud
+  std::optional<double> units_per_value = {};  // see Cloud
   double rho = 0;                              // sampling distance of the cloud
   double diagonal = 0;                         // L_d, the diagonal of the whole cloud's bounding box
   std::size_t input_points = 0;
@@ -34,10 +34,10 @@ struct Surface {
   std::size_t removed_points = 0;   // number of visible points that were removed as floating noise
   std::size_t crumbs = 0;           // number of small parts that were left out
   // The table or background, in the coordinates of `points`; empty if none was found. Its points are left out
-  // unless View::has_plane.
+  // if View::has_plane is false.
   std::optional<SupportPlane> plane = {};
-  double measured_noise = 0;  // standard deviation along the normals, in rho; 0 if there is little noise
-  double removed_noise = 0;   // the noise that the view asks to remove or, by default, the measured noise
+  double measured_noise = 0;  // standard deviation along the normals, in rho; 0 if it is small
+  double removed_noise = 0;   // noise that was removed: as the view asks, by default the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // whether the cloud's normals pointed inwards
 
@@ -53,10 +53,10 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
 // Returns the surface of the part of the cloud inside the view's crop. Normals are estimated if there are
 // none, and reversed if they point inwards. Noise is removed as the view specifies. Parts of less than 0.5 %
-// of the visible surface are left out as crumbs. If the view says so, a support plane and all points behind
-// it are left out, too. Errors: kind geometry if a coordinate is not finite, if the number of normals differs
-// from the number of points, if fewer than 4 points are given or face the viewer, if all points are equal or
-// collinear, or if the visible points enclose no area; kind cancelled.
+// of the visible surface are left out as crumbs. If View::has_plane is false, a support plane and all points
+// behind it are left out, too. Errors: kind geometry if a coordinate is not finite, if the number of normals
+// differs from the number of points, if fewer than 4 points are given or face the viewer, if all points are
+// equal or collinear, or if the visible points enclose no area; kind cancelled.
 Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

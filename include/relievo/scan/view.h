@@ -1,4 +1,4 @@
-// The view (stage 2): the side of the model that the relief shows.
+// Defines the view (stage 2), which is the side of the model that the relief shows.
 #pragma once
 
 #include <array>
@@ -32,13 +32,13 @@ struct View {
   int most_pieces = 0;      // number of the largest connected parts that are shown; 0 for all
   bool has_plane = true;    // whether a table or background is shown, see find_support_plane()
   // The widest gap, in rho, that is closed between two surfaces that turn away from the viewer, such as
-  // fingers. Sampling leaves gaps of up to 2.4 rho there. For meshes the exact gaps are known, and this is
+  // fingers. Sampling leaves gaps of up to 2.4 rho there. For meshes the exact gaps are known, and `gap` is
   // ignored.
   double gap = 2.4;
   std::optional<double> denoise = {};  // noise to remove, in rho, [0, 1]; default: the measured noise
   // Whether the surface is found by the rules of Nie et al. alone, for Method::paper (src/paper/surface.h).
   bool is_paper = false;
-  // Whether the best side is to be chosen once the model is known, see chosen_view() in scene.h.
+  // Whether to rotate the view to the best side when the model is known, see chosen_view() in scene.h.
   bool is_best = false;
 
   bool operator==(const View&) const = default;
@@ -83,9 +83,8 @@ Cloud cropped(const Cloud& cloud, const View& view);
 // box in the model's axes.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// A side of a model, named as for parse_view(), and its score as the view of a relief. The score is the sum
-// of the normal differences between neighbouring cells of a coarse image, except across depth jumps, times a
-// weight.
+// A side of a model, with its names for parse_view(), and its score as a view. The score is the sum of the
+// normal differences between neighbouring cells of a coarse image, except across depth jumps, times a weight.
 struct ViewGuess {
   std::string name, up;
   double score = 0;
@@ -93,9 +92,9 @@ struct ViewGuess {
 
 // Returns six perpendicular sides, each upright, with the highest score first. Outliers are ignored, and
 // normals are estimated if the cloud has none.
-// - For a cloud that was scanned from one side, that side is the front, along an axis or not; its hollow back
-// has the score 0. If the outline has a broad foot on one side, that side is down. Cameras at the origin look
-// along +Z with -Y up, or along -Z with Y up.
+// - For a cloud that was scanned from one side, the scanned side is the front, even if it is not along an
+// axis; its hollow back has the score 0. If the outline has a broad foot on one side, that side is down. A
+// camera at the origin is assumed to look along +Z with -Y up, or along -Z with Y up.
 // - Other models are viewed along the axes. As in glTF, up is Y and the front is +Z. But if the model has a
 // wide foot along Z and none along Y, up is Z and the front is -Y; with a wide foot along -Y, up is -Y and
 // the front is -Z. The front's score is multiplied by 1.6.

@@ -1,4 +1,4 @@
-// Visible points (stage 3): finds the points of a scattered cloud that no others hide, and points that
+// Finds the visible points (stage 3) of a scattered cloud, which no other points hide, and points that
 // replace unscanned parts of the visible side.
 #pragma once
 
@@ -17,13 +17,13 @@ namespace relievo {
 // normal, and its size follows from the local spacing, so that there are no gaps even if the density varies.
 // A point is visible if it faces the viewer and is at most the tolerance behind the buffer's depth. Small
 // connected sets of points are not visible and hide nothing. In a height field all points that face the
-// viewer are visible. This replaces the cells of 2 rho in the paper's section 3.2, which let hidden points
-// through and lose points on slopes.
+// viewer are visible. The depth buffer replaces the cells of 2 rho in the paper's section 3.2, which let
+// hidden points through and lose points on slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing);
 
 struct VisiblePoints {
   std::vector<Index> points;
-  std::size_t removed = 0;  // number of points that would be visible, but are removed as floating noise
+  std::size_t removed = 0;  // number of otherwise visible points that were removed as floating noise
 };
 
 // Returns the result of visible_points(), and the number of removed points.

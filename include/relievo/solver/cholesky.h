@@ -54,8 +54,8 @@ class Cholesky {
   // Returns the number of unknowns.
   std::size_t size() const;
 
-  // Renumbers the unknowns for later solves: unknown i becomes element numbers[i] of b and x; their other
-  // elements are neither read nor written. `numbers` has one number per unknown, all different.
+  // Renumbers the unknowns for later solves: unknown i becomes element numbers[i] of b and x. All other
+  // elements are neither read nor written. `numbers` has a different number for each unknown.
   void renumber(std::span<const Index> numbers);
 
   // Returns the number of bytes of memory in use, without workspaces.

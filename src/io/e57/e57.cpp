@@ -25,7 +25,7 @@ struct E57Scan {
 
   E57Section section;
   std::vector<PackedColumn> columns;
-  Triple position = {};  // x, y and z, or range, azimuth and elevation
+  Triple position = {};  // columns of x, y and z, or of range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
   std::optional<std::size_t> invalid;    // column that is not 0 for points that the scanner could not measure
@@ -158,8 +158,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // Takes the range of colours from colorLimits or, without that, from the columns' limits. Floating-point
-  // columns without limits are in [0, 1].
+  // Takes the range of colours from colorLimits or, if this element is missing, from the columns' limits.
+  // Floating-point columns without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");
@@ -254,7 +254,7 @@ Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& p
   return scans;
 }
 
-// Returns whether all scans have that part. Adds a remark if only some do.
+// Returns whether all scans have that part, such as colours. Adds a remark if only some do.
 bool have_all(const std::vector<E57Scan>& scans, std::optional<E57Scan::Triple> E57Scan::*part,
               std::string_view name, RawCloud& raw) {
   const auto count = static_cast<std::size_t>(

@@ -18,9 +18,9 @@ constexpr std::size_t checksum_size = 4, header_size = 48;
 using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
 
 // Makes tables for processing eight bytes per step ("slicing by 8", Kounavis and Berry 2008). Table k is for
-// a byte followed by k bytes.
+// a byte that is followed by k more bytes.
 constexpr CrcTables make_crc_tables() {
-  constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's, reflected
+  constexpr std::uint32_t polynomial = 0x82F63B78;  // Castagnoli's polynomial, with its bits reversed
   CrcTables tables{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t crc = i;
@@ -60,7 +60,7 @@ Result<std::uint64_t> check_header(const Source& source) {
 }
 
 constexpr std::size_t section_header = 32, data_header = 6;
-constexpr std::size_t padding = 9;  // so that 64 bits can be read at any bit position
+constexpr std::size_t padding = 9;  // zeros after the bytes, so that 64 bits can be read at any bit position
 
 std::uint64_t bits_at(const char* bytes, std::uint64_t bit, unsigned count) {
   const char* const first = bytes + bit / 8;

@@ -1,5 +1,5 @@
-// The pages of an E57 file: blocks of 1,024 bytes, of which the last four are a checksum. Physical offsets,
-// which the file uses, count the checksums; logical offsets and lengths do not.
+// Reads the pages of an E57 file, which are blocks of 1,024 bytes. The last four bytes of a page are a
+// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not.
 #pragma once
 
 #include <cstddef>
@@ -18,10 +18,10 @@ std::uint32_t crc32c(std::string_view bytes);
 struct E57Pages {
   std::string bytes;          // the contents of all pages
   std::size_t page_size = 0;  // in bytes, including the checksum
-  std::string_view xml;       // a part of `bytes`
+  std::string_view xml;       // the XML of the file, a part of `bytes`
 
   E57Pages() = default;
-  E57Pages(E57Pages&&) = delete;  // `xml` points into `bytes`
+  E57Pages(E57Pages&&) = delete;  // not movable, because `xml` points into `bytes`
 
   // Convert between physical and logical offsets. A physical offset inside a checksum becomes the end of all
   // bytes.
@@ -33,8 +33,8 @@ struct E57Pages {
 // the page with a wrong checksum.
 Result<void> read_e57_pages(const Source& source, E57Pages& pages);
 
-// The numbers of an E57 file. A CompressedVector section is a sequence of packets. Each packet has a part of
-// every column; its numbers are packed bit by bit.
+// The numbers of an E57 file are stored as follows. A CompressedVector section is a sequence of packets. Each
+// packet has a part of every column; its numbers are packed bit by bit.
 
 // A column of numbers, and how they are packed.
 struct PackedColumn {

@@ -19,7 +19,7 @@ using Transform = Eigen::Affine3d;
 
 constexpr std::size_t most_vertices = 100'000'000;  // limit, because small files can repeat a mesh many times
 
-constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of application
+constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // in the order of their application
 
 constexpr const char* draco = "KHR_draco_mesh_compression";
 
@@ -41,7 +41,7 @@ bool is_readable_with(std::string_view extension) {
 // The vertices of a primitive, one per position.
 struct Vertices {
   AccessorValues positions, normals, colours;
-  // Used if there are no colours; empty if the file has no textures.
+  // Colours from the material, used if `colours` is empty; empty if the file has no textures.
   std::vector<Colour> material_colours = {};
 
   std::size_t count() const { return positions.count(); }
@@ -79,8 +79,8 @@ class GltfReader {
     if (has_lines_) raw.remarks.emplace_back("left out the lines");
   }
 
-  // The transforms of a mesh's copies, or the number of the mesh's skin; a skin determines the position
-  // alone.
+  // The placement of a mesh in the scene: the transforms of its copies, or the number of its skin. A mesh
+  // with a skin needs no transform, because the skin alone determines the positions.
   struct Placement {
     std::vector<Transform> copies;
     std::size_t skin = no_index;
@@ -187,8 +187,8 @@ class GltfReader {
     return {};
   }
 
-  // Returns the transforms of the node's mesh: the transform of the node, or those of the copies by
-  // EXT_mesh_gpu_instancing.
+  // Returns the transforms of the node's mesh: the transform of the node or, with EXT_mesh_gpu_instancing,
+  // the transforms of its copies.
   Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
                                            const std::string& place) {
     const Json* attributes = &node;

@@ -1,4 +1,4 @@
-// The parts of a glTF file that determine geometry: its JSON, and the numbers in its buffers. Tested by
+// Reads the parts of a glTF file that determine geometry: its JSON, and the numbers in its buffers. Tested by
 // tests/io/gltf_test.cpp and tests/io/mesh_formats_test.cpp.
 #pragma once
 

@@ -145,7 +145,7 @@ Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
 }
 
-// Returns the location of the vectors of `in_view`: an accessor, or a part of a sparse accessor.
+// Returns the location of the vectors of `in_view`, which is an accessor or a part of a sparse accessor.
 Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, const std::string& place) {
   const auto fail = [&](std::string expected) { return source_->error(place, std::move(expected)); };
   const auto offset = number_in(in_view, "byteOffset", 0),

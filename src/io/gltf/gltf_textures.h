@@ -1,4 +1,4 @@
-// The base colours of a glTF file's materials: textures, sampled at the vertices, and plain colours.
+// Determines the base colours of a glTF file's materials: textures, sampled at vertices, or plain colours.
 #pragma once
 
 #include <map>

@@ -113,8 +113,9 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // Removes the outermost value on the other side, moves the rest of that side and the median outwards by
-    // one, and inserts the new value on its own side. The next new value replaces a value at the same end.
+    // Removes the outermost value on the side opposite to the new value, moves the rest of that side and the
+    // median outwards by one, and inserts the new value on its own side. The next new value replaces a value
+    // at the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

@@ -1,5 +1,5 @@
-// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76).
-// It has 32-bit intervals, and periodically updates its models of symbol frequencies.
+// Implements the adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding",
+// HPL-2004-76). It has 32-bit intervals, and periodically updates its models of symbol frequencies.
 #pragma once
 
 #include <algorithm>

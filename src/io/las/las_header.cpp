@@ -95,7 +95,7 @@ class LasHeaderReader {
     return {};
   }
 
-  // Up to format 5 the class shares a byte with flags; later formats have two bytes.
+  // In point formats up to 5, one byte has the class and the flags; later formats have a byte for each.
   void take_classes() {
     if (source_.keeps_doubtful) return;
     const auto in_one_byte = [](const char* row) {

@@ -17,8 +17,8 @@ struct LasHeader {
   std::size_t variable_records = 0;
 };
 
-// Points of the classes low noise and high noise, and points that the file marks as withheld, which readers
-// should treat as deleted.
+// Describes the points that are left out: low noise, high noise, and points that the file marks as withheld,
+// which readers should treat as deleted.
 constexpr std::string_view what_las_leaves_out =
     "that the file marks as noise (classes 7 and 18) or withheld; --doubtful keep keeps them";
 constexpr bool is_left_out(unsigned classification, bool is_withheld) {

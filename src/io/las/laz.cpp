@@ -48,10 +48,10 @@ struct LazLayout {
 };
 
 constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
-// This (or 0) is stored as the number of points per chunk if that varies.
+// This value (or 0) is stored as the number of points per chunk if that number varies.
 constexpr std::uint32_t chunks_vary = ~0U;
-constexpr std::uint64_t most_points_a_byte =
-    256;  // limit; 40 points per byte were measured for a row with equal steps
+// Limit of points per byte. 40 were measured for a row of points with equal steps.
+constexpr std::uint64_t most_points_a_byte = 256;
 
 // Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the
 // file, and have as many points as the header promises. Errors name the byte.
@@ -197,7 +197,7 @@ struct LazPoints {
   std::atomic<std::size_t>& left_out;  // number of points left out
   bool keeps_doubtful;
 
-  // Sets the point; to NaN if it is left out.
+  // Sets point i. If the point is left out, its coordinates become NaN.
   template <typename Point>
   void set(std::size_t i, const Point& point) const {
     const bool counts = keeps_doubtful || !is_left_out(point.classification(), point.is_withheld());
@@ -252,8 +252,8 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// The layers of a chunk. After the first point there are the number of points, the size of each layer, and
-// the layers.
+// Splits a chunk into layers. A chunk has the first point, the number of points, the layers' sizes, and the
+// layers.
 class LayerSizes {
  public:
   LayerSizes(std::string_view bytes, std::size_t first_size, std::size_t layers)

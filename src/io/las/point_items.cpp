@@ -1,4 +1,5 @@
-// Decodes version 2 of the items (version 1 of wave packets), which LASzip has written since 2011.
+// Decodes the parts of points ("items") as LASzip has written them since 2011: version 2, or version 1 of
+// wave packets.
 #include "io/las/point_items.h"
 
 #include <algorithm>
@@ -100,7 +101,7 @@ void PositionItem::decode_attributes(ArithmeticDecoder& decoder, std::uint32_t c
         decoder, intensities_[context], static_cast<std::uint32_t>(std::min<std::size_t>(context, 3))));
   }
   if ((changes & 8) != 0) classification_models_.next(decoder, classification_);
-  if ((changes & 4) != 0) decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // the angle is not used
+  if ((changes & 4) != 0) decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // decoded only to advance
   if ((changes & 2) != 0) user_data_models_.next(decoder, user_data_);
   if ((changes & 1) != 0) source_ = static_cast<std::uint16_t>(source_decoder_.next(decoder, source_));
 }
@@ -235,7 +236,7 @@ LayeredPoint::LayeredPoint(const LazLayers& layers, const char* first, const cha
   colour_channels_[channel_] = std::make_unique<ColourChannel>(ColourChannel{colour_, {}});
 }
 
-// Decodes what changes relative to the previous point, and switches to the point's scanner.
+// Decodes which values differ from those of the previous point, and switches to the point's scanner.
 std::uint32_t LayeredPoint::decode_changes() {
   Channel& last = *channels_[channel_];
   const std::size_t context = (last.return_number == 1 ? 1U : 0U) +

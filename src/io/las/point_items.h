@@ -65,7 +65,7 @@ class PositionItem : public PointItem {
   bool is_withheld() const { return (classification_ & 128U) != 0; }
 
  private:
-  // Models of a byte that changes: one model per previous value.
+  // Models for a byte that changes from point to point: one model per previous value.
   class ByteModels {
    public:
     void next(ArithmeticDecoder& decoder, std::uint8_t& value);

@@ -17,8 +17,8 @@
 namespace relievo::io {
 namespace {
 
-// Cameras and programs write at most some tens of scans. Broken files may have thousands, each of which takes
-// as much time as the whole picture.
+// A scan is a pass over the picture in a progressive JPEG. Cameras and programs write at most some tens of
+// scans. Broken files may have thousands, and each takes as much time as decoding the whole picture.
 constexpr int most_scans = 100;
 
 // After an error, libjpeg must not return. It jumps back into decode(), where no object has a destructor.

@@ -66,7 +66,7 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
   return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
 }
 
-// Sets the values from numbers of so many bytes, which the compiler has to know to read them fast.
+// Sets the values from numbers of `bytes` bytes, a template argument so that the compiled code is fast.
 template <unsigned bytes>
 Result<void> fill_from(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
                        const PnmValues& stored, Image<float>& values) {
@@ -139,7 +139,7 @@ bool is_text_picture(std::string_view bytes) {
 
 }  // namespace
 
-// A text file with names of points in its first column may begin with the mark, too.
+// A text file whose first column has names of points may begin with the mark of a picture, too.
 bool is_pnm(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (is_text_picture(bytes)) return true;

@@ -27,8 +27,7 @@ struct Layout {
   std::optional<std::uint16_t> alpha;  // index of the channel of opacity
 };
 
-// Returns the first of the extra channels that the file declares as opacity. Extra channels are the last
-// ones.
+// Returns the first extra channel that the file declares as opacity. Extra channels come after all others.
 std::optional<std::uint16_t> alpha_of(TIFF* tiff, std::uint16_t channels) {
   std::uint16_t count = 0;
   const std::uint16_t* kinds = nullptr;
@@ -256,8 +255,8 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models store the lowest single-precision number where the height is unknown. Not all of them have
-// the tag.
+// Terrain models store the lowest single-precision number where the height is unknown. Not all of these files
+// have GDAL's tag.
 constexpr float lowest_height = -1e38F;
 
 // Inverts the values if 0 is white in this file, and replaces missing values by NaN.

@@ -15,12 +15,13 @@ namespace {
 
 struct GridHeader {
   double columns = 0, rows = 0;
-  Vec2 corner = Vec2::Zero();  // lower left corner, or centre of the cell there
+  Vec2 corner = Vec2::Zero();  // lower left corner of the grid, or centre of its lower left cell
   Vec2 cell = Vec2::Zero();
   double no_data = -9999;  // value for missing heights; the format's default
 };
 
-// Returns the header entry with that name; null for other names. A cell size applies to both sides.
+// Returns the header entry with that name; null for other names. `cellsize` sets only the width of a cell;
+// check_header() copies it to the height.
 double* find_entry(GridHeader& header, std::string_view name) {
   const std::array<std::pair<std::string_view, double*>, 10> entries = {{{"ncols", &header.columns},
                                                                          {"nrows", &header.rows},

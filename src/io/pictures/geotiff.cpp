@@ -1,4 +1,4 @@
-// Tags and keys of OGC GeoTIFF 1.1.
+// Reads tags and keys of OGC GeoTIFF 1.1.
 #include "io/pictures/geotiff.h"
 
 #include <algorithm>
@@ -57,7 +57,7 @@ std::optional<PixelPlace> find_place(TIFF* tiff, std::uint32_t rows) {
 }  // namespace
 
 Vec2 metres_of_degrees(const Vec2& degrees, double latitude_deg) {
-  // A mean radius, because the earth is not a sphere.
+  // The radius is a mean, because the earth is not a sphere.
   constexpr double earth_radius_m = 6371008.8, steepest_deg = 89;
   constexpr double radians = std::numbers::pi / 180;
   const double latitude = radians * std::clamp(latitude_deg, -steepest_deg, steepest_deg);

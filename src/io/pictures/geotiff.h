@@ -1,4 +1,4 @@
-// The pixel size of a terrain model in GeoTIFF.
+// Reads the pixel size of a terrain model in GeoTIFF.
 #pragma once
 
 #include <tiffio.h>

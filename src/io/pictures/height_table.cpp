@@ -55,7 +55,7 @@ bool is_table(const Source& source, const XyzLayout& layout) {
   return are_neighbours_alike(sample_rows(source.bytes.substr(layout.data_offset), layout), layout.columns);
 }
 
-// Returns the layout of a table; nothing for other texts.
+// Returns the layout of a table; nothing if the text is not a table.
 std::optional<XyzLayout> find_table(const Source& source) {
   if (!foreign_format(source).empty()) return std::nullopt;
   std::optional<XyzLayout> layout;
@@ -69,7 +69,7 @@ std::optional<XyzLayout> find_table(const Source& source) {
   return layout && is_table(source, *layout) ? layout : std::nullopt;
 }
 
-// Appends a line of the table. What is not a number is missing, and so is an empty last field.
+// Appends a line of the table. A field that is not a number is missing, and so is an empty last field.
 void take_row(std::string_view line, const XyzLayout& layout, std::vector<float>& values) {
   const std::size_t before = values.size();
   Fields fields(line, layout.separator);
@@ -88,7 +88,7 @@ bool is_height_table(const Source& source) {
 }
 
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels&) {
-  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // is_height_table() has found it before
+  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // never empty after is_height_table()
   SourceLines lines(source, layout.data_offset, layout.first_line - 1);
   std::vector<float> values;
   std::size_t rows = 0;

@@ -1,4 +1,4 @@
-// The information in a JPEG before its pixels.
+// Reads the information that precedes the pixels in a JPEG.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@ namespace relievo::io {
 struct JpegHeader {
   std::uint64_t width = 0, height = 0;  // 0 if the bytes have no frame
   std::uint64_t channels = 0;
-  int orientation = 1;  // Exif tag, as for turn_upright()
+  int orientation = 1;  // Exif tag, see turn_upright()
 };
 
 // Returns the information in the segments up to the first frame, of a JPEG or its beginning.

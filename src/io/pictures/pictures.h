@@ -1,4 +1,4 @@
-// The formats of depth images, and their readers.
+// Declares the formats of depth images, and their readers.
 #pragma once
 
 #include <array>
@@ -103,7 +103,7 @@ struct PictureFormat {
   Result<DepthImage> (*read)(const Source&, const PictureChannels&);
 };
 
-// Text comes last, as in the formats of clouds, and has the endings of text clouds.
+// The first entry that recognises a file reads it. Tables come last, because text may begin with anything.
 inline constexpr std::array picture_formats = {
     PictureFormat{"PNG", ".png", is_png, read_depth_png},
     PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff},

@@ -1,4 +1,4 @@
-// The numbers that encode a picture's values in TIFF, NPY and PFM.
+// Decodes the numbers that encode a picture's values in TIFF, NPY and PFM.
 #pragma once
 
 #include <bit>

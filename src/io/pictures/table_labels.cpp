@@ -22,8 +22,8 @@ bool has_numbers(std::string_view line) {
   return count >= enough_numbers;
 }
 
-// Returns whether the line has as many fields as a row, up to an empty last one, of which some are numbers or all
-// are the same, unlike names of columns.
+// Returns whether the line is a row of the table: it has as many fields as a row, or one less if the last one
+// is empty. To exclude names of columns, some fields must be numbers, or all fields must be the same.
 bool is_row(std::string_view line, const XyzLayout& layout) {
   Fields fields(line, layout.separator);
   std::string_view first;
@@ -39,18 +39,18 @@ bool is_row(std::string_view line, const XyzLayout& layout) {
   return is_whole && (has_number || are_same);
 }
 
-// A number of equal steps, from the second value of a row or column on.
+// Numbers with equal steps, in a row or column of the table; `first` is the number after the corner or in it.
 struct Progression {
   double first = 0, step = 0;
 
   bool counts() const { return step == 1 && (first == 0 || first == 1); }
 };
 
-// Returns the progression that `size` values from values[begin] on are, up to the rounding of places; nothing if
-// they are none.
+// Returns the progression of the values at(begin) to at(size - 1). They may deviate from equal steps, because
+// files round them. Returns nothing if they are no progression.
 template <typename At>
 std::optional<Progression> progression(std::size_t begin, std::size_t size, const At& at) {
-  constexpr double rounding = .05;  // of a step
+  constexpr double rounding = .05;  // as a share of a step
   if (begin + 4 > size) return std::nullopt;
   const double first = double{at(begin)}, last = double{at(size - 1)};
   const double step = (last - first) / static_cast<double>(size - 1 - begin);
@@ -107,7 +107,8 @@ void drop_labels(DepthImage& table) {
   const std::size_t begin = has_corner ? 0 : 1;
   const auto above = progression(begin, columns, in_row(0)), left = progression(begin, rows, in_column(0));
   const bool are_places = !has_corner && above && left;
-  // A row of heights may count, too, if the next one is as even.
+  // A row of heights may be 0, 1, 2 ..., too. Then the next row is usually a progression, too, and the first
+  // row stays. The same holds for columns.
   const bool is_above = are_places || (above && above->counts() && !progression(begin, columns, in_row(1)));
   const bool is_left = are_places || (left && left->counts() && !progression(begin, rows, in_column(1)));
   if (are_places && !(above->counts() && left->counts()))

@@ -10,12 +10,13 @@
 
 namespace relievo::io {
 
-// Returns the layout of a text whose table begins behind other lines, such as those of an instrument or rows
-// without any value; nothing if no line has 8 numbers.
+// Returns the layout of a text whose table begins after other lines, such as the settings of an instrument or
+// rows without any value. Returns nothing if no line has 8 numbers.
 std::optional<XyzLayout> find_table_behind_words(const Source& source);
 
-// Removes the numbers of columns above a table, as spreadsheets and pandas write them, and those of rows on its
-// left. Beside an empty corner these may be places at equal distances, which give the size of pixels.
+// Removes the row above the table that numbers the columns, and the column on the left that numbers the rows,
+// as spreadsheets and pandas write them. If the corner between them is empty, they may also be coordinates at
+// equal distances; these distances become the size of pixels.
 void drop_labels(DepthImage& table);
 
 }  // namespace relievo::io

@@ -1,4 +1,4 @@
-// TIFF files in memory, read and written by libtiff.
+// Reads and writes TIFF files in memory with libtiff.
 #pragma once
 
 #include <tiffio.h>

@@ -1,4 +1,4 @@
-// The numbers in the rows of a TIFF picture.
+// Decodes the numbers in the rows of a TIFF picture.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,6 @@ std::byte* put(std::byte* to, T value) {
   return to + sizeof value;
 }
 
-// Writes the components of a vector.
 template <typename Vector>
 std::byte* put_vector(std::byte* to, const Vector& vector) {
   for (const auto value : vector) to = put(to, value);

@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// Returns whether float is too imprecise for the coordinates. Its seven digits suffice, unless the cloud is
-// so far from the origin that most digits only describe its position.
+// Returns whether float is too imprecise for the coordinates. The seven digits of a float suffice, unless the
+// cloud is so far from the origin that most digits only describe its position.
 bool needs_double(const Cloud& cloud) {
   const Box box = bounds(cloud);
   if (box.is_empty()) return false;

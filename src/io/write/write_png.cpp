@@ -31,7 +31,7 @@ spng_color_type colour_type(int channels) {
                          : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
 }
 
-// Functions of libspng return 0 or an error code.
+// Functions of libspng return 0 if they succeed, else an error code.
 template <typename T>
 bool set_header(spng_ctx* spng, const Image<T>& image) {
   spng_ihdr header{};
