@@ -27,8 +27,8 @@ struct Tile {
   std::string name;
 };
 
-// Returns a picture of at most tiles_per_sheet tiles, row by row, about as wide as it is high. Below each
-// tile is its name. A cross replaces an empty tile.
+// Draws at most tiles_per_sheet tiles row by row into one picture, which is about as wide as it is high. Below
+// each tile is its name. A tile without a picture shows a cross.
 Image8 contact_sheet(const std::vector<Tile>& tiles, int side);
 
 }  // namespace relievo::app::batch

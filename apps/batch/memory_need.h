@@ -9,8 +9,9 @@ namespace relievo::app::batch {
 // figures of docs/batch.md. Opens each file and reads its first 64 kB.
 double memory_need_mb(const Job& job);
 
-// Returns the memory that this process may still allocate, in megabytes: the available memory of the machine
-// or, if that is less, the rest of its control group's limit, as in a container or under Slurm.
+// Returns the memory, in megabytes, that this process may still allocate. This is the available memory of the
+// machine or, if that is less, the unused part of the limit of the process's control group. Containers and Slurm
+// set such limits.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

@@ -16,7 +16,7 @@ namespace relievo::app::batch {
 struct OutputKind {
   std::string name;    // name of a format of export_file.h, or "report"
   std::string ending;  // appended to the job's name: ".stl", "-heights.png"
-  std::string flag;    // the flag of `make` that takes the path of such a file
+  std::string flag;    // the flag of `make` that sets the path of this file
 };
 
 // Returns the names of all kinds as a text: "stl, 3mf, ... or report".
@@ -30,7 +30,7 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 // Returns the path of an output, relative to the folder of the outputs.
 std::string output_name(const Job& job, const OutputKind& kind);
 
-// The error of a call. `may_succeed`: the same call may succeed later.
+// The error of a call of `relievo`. `may_succeed`: the same call may succeed later.
 struct MakeError {
   std::string line;
   bool may_succeed = false;
@@ -39,7 +39,7 @@ struct MakeError {
 using MakeCall = std::function<std::optional<MakeError>(const std::vector<std::string>& arguments)>;
 
 struct Workshop {
-  std::string outputs;  // path of their folder
+  std::string outputs;  // path of the folder of the outputs
   std::vector<OutputKind> kinds;
   MakeCall make;
 };
@@ -55,8 +55,9 @@ struct Performed {
   Record record;
 };
 
-// Makes the outputs of a job unless they are up to date: this version made them from the same file contents
-// and options, and their sizes have not changed since. A failed job is repeated only if it may succeed now.
+// Makes the outputs of a job unless they are up to date. They are up to date if this version of the program made
+// them from the same file contents and options, and if their sizes have not changed since. A failed job is
+// repeated only if it may succeed now.
 Performed perform(const Work& work, const Workshop& workshop, int threads);
 
 // Returns the arguments with which `make` does the job.

@@ -25,7 +25,7 @@ struct HeightMapFlag {
   std::string HeightMapTexts::*text;
 };
 
-// The flags of `make` and `batch`. The same names are used in the studio's requests.
+// The flags of `make` and `batch` for height maps. The studio's requests use the same names.
 inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
     {{"pixel", "MM", "exact size of the height map's pixels, in the place of heightmap-size",
       &HeightMapTexts::pixel},
@@ -46,8 +46,8 @@ struct HeightMapOrder : HeightMapOptions {
   int effective_bits() const { return bits != 0 ? bits : is_tiff ? 32 : 16; }
 };
 
-// Sets the options that the texts give. A length without a unit is in the unit of the order. Errors: kind
-// option; they name the flag.
+// Parses the texts and stores their values in the order. A length without a unit is in the unit of the order.
+// Errors: kind option; they name the flag.
 Result<void> take_texts(const HeightMapTexts& texts, HeightMapOrder& order);
 
 // Returns the texts that a JSON object has under the names of the flags. Errors: kind option if a value is
