@@ -66,8 +66,8 @@ double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether FrameRenderer can draw the piece of the options while only its heights change, without ornaments and
-// without what takes long: draft, simplification, and the reach of a tool.
+// Returns whether FrameRenderer can draw the piece while only its heights change. It leaves out ornaments and what
+// takes long to compute: the draft angle, the simplification, and the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
   const bool is_flat = options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
   return (is_flat || options.outline != Outline::none) && options.form != Form::lithophane &&
@@ -92,8 +92,8 @@ ReliefOptions coarse(ReliefOptions options) {
   return options;
 }
 
-// Returns whether the thickness of a coarse piece is exact: the thickness of the plate plus the height of the
-// relief.
+// Returns whether a coarse piece is exactly as thick as the finished one, which is then as thick as the plate and the
+// relief together.
 bool is_level(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
          options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
@@ -197,7 +197,7 @@ void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& 
 Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
   if (is_finished(options)) return &*finished_;
   const ReliefOptions bare =
-      without_ornaments(options);  // these take longer than a hand that waits for a frame
+      without_ornaments(options);  // making ornaments takes too long while a user drags a slider
   if (coarse_ && coarse_->options == bare) return &*coarse_;
   RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(bare)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
@@ -211,7 +211,7 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                                  const LiveFrame& made, PictureAnswer& answer) {
   const Vec2 half = facts_.size * render.mm_per_unit / 2;
   if (!is_plain(request.options)) {
-    // A draft may limit the height, and heights out of reach are rounded down.
+    // The draft angle may limit the height, and a height that is out of reach is rounded down, so the frame is scaled.
     LiveFrame limited = made;
     const double unstretched = made.frame->height * made.mm_per_unit;
     if (unstretched > 0) limited.stretch = answer.height_mm / unstretched;

@@ -33,7 +33,8 @@ struct EngineStatus {
 // Every method may be called from any thread. While one method draws, others that draw wait.
 class Engine {
  public:
-  // `changed` is for systems without threads. It is called when status() has changed within a call.
+  // `changed` is for systems without threads, and otherwise null. It is called when status() has changed within a
+  // call of this object.
   explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 

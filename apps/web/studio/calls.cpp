@@ -46,8 +46,8 @@ CallAnswer call_answer(const studio::Answer& from, Json json) {
   return {std::move(json), {bytes.begin(), bytes.end()}};
 }
 
-// Reads a project file that the page has added under a path. Later, the call "unpacked" returns the bytes of
-// each file in it.
+// Reads a project file that the page has added under a path. After that, the call "unpacked" returns the bytes of
+// each file in the project file.
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };
