@@ -57,8 +57,8 @@ export class DepthPanel {
     this.showScale();
   }
 
-  // Shows the options of pictures whose heights are proportional to their values: how deep the figure is, or what one
-  // unit of the values is.
+  // Shows the options of pictures whose heights are proportional to their values: the depth of the figure, and the
+  // height in mm of one unit of the values.
   showScale() {
     const isScaled = this.depth?.is_scaled, {options} = this.doc.now;
     this.rows["depth-range"].hidden = !isScaled || hasScale(this.doc.now);

@@ -5,11 +5,12 @@
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
 //                                  drawsMeanwhile: whether it draws pictures while a piece is made, and while the
 //                                  first view is prepared; canRemove: whether documents are stored until the user
-//                                  removes them; slowMs: if pictures take longer, they get fewer pixels}. The Engine
-//                                  has the same traits
+//                                  removes them; slowMs: if pictures take longer than this, they get fewer pixels}.
+//                                  The Engine has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
-//                                  picture; `facts` has facts about it; the request is optional; onSolved is
-//                                  called when a picture only has to be drawn, if the next one can be solved meanwhile
+//                                  picture; `facts` has facts about it; the request is optional. If heights for the
+//                                  next picture can be solved while this picture is drawn, onSolved is called as soon
+//                                  as the heights of this picture are solved
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
 //                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
@@ -60,14 +61,14 @@ export class Engine {
   addressOf = (file) => this.#transport.addressOf(file);
   follow = (...listeners) => this.#transport.follow(...listeners);
 
-  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (the
-  // input or project with which the program was started), notice (a message about the folder in which documents are
-  // stored), most_upload (in bytes), and in some engines limits (texts about limits for users).
+  // Returns the facts for the page's start: version, options, readable, endings, formats, views, materials, stages,
+  // curve, samples, recent, first (the input or project with which the program was started), notice (a message about
+  // the folder in which documents are stored), most_upload (in bytes), and in some engines limits (texts for users).
   about = async () => (await this.#transport.call("about")).body;
 
-  // Returns {document, input, is_there, kept}: the document of a scan, and its stored state, or null.
+  // Returns {document, input, is_there, kept} for a scan. `kept` is the stored state of its document, or null.
   find = (input) => this.#ask("document", {input});
-  // Uploads files of the browser. Returns the input that consists of them.
+  // Uploads files of the browser. Returns them as one input.
   upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
   // Returns {input, is_there, options, usual, studio}, the content of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
@@ -82,10 +83,11 @@ export class Engine {
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, facts}. `options.signal` can cancel the picture, options.onSolved is that of the transport.
+  // Return {image: ImageData, facts}. `options.signal` can cancel the picture. `options.onSolved` is passed on to the
+  // transport.
   picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
-  // Returns a depth image, in which the pixels that were left out have the colours that its facts state.
+  // Returns a picture of the depth image. Its facts state the colours of the pixels that were left out.
   pixels = () => this.#picture("pixels");
 
   // Returns heights in mm along a line.
@@ -106,7 +108,7 @@ export class Engine {
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
-  // Cancels the making of the piece, and the request for the piece or for its file.
+  // Stops making the piece, and cancels the request for the piece or for its file.
   cancelPiece() {
     this.#making?.abort();
     return this.#ask("cancel_piece");

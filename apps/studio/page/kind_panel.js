@@ -1,5 +1,5 @@
-// Shows the panel of the kind of work, with the controls that matter for it: those of the rim if there is one, and the
-// button that turns the piece into its die. The controls of all other options stay in the panels below.
+// Shows the panel of the kind of work, with the controls that matter for this kind: those of the rim if there is a rim,
+// and the button that turns the piece into its die. The controls of all other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {whenFinished} from "./inputs.js";

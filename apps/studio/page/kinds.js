@@ -108,7 +108,7 @@ export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
-  const isForm = ["die", "lithophane"].includes(form); // the kind would only repeat the form
+  const isForm = ["die", "lithophane"].includes(form); // the name of the kind would repeat that of the form
   return [plainName(step.input), ...words.slice(isForm ? 1 : 0)].filter(Boolean).join("-");
 }
 
