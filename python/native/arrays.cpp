@@ -28,7 +28,7 @@ std::string dtype_text(const py::array& array) {
   raise_input(given.name, "shape", cat("expected ", expected, ", found ", shape_text(given.array)));
 }
 
-// Calls f with a function that returns the number in a row and a column, for any type of number in memory.
+// Calls f with a function that returns the number in a given row and column, for arrays of any type of number.
 template <typename F>
 void with_reader(const NamedArray& given, F&& f) {
   const py::array& array = given.array;

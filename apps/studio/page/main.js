@@ -291,7 +291,7 @@ async function arrived(status) {
   depthPanel.tell(modelFacts.depth_image).catch(failed);
   lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models); // with takesSeveral, a new scene file cannot refer to them
+  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models); // else a new scene file could not refer to them
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();

@@ -56,7 +56,7 @@ export class Sliders {
   slide(name, value, isTyped = false) {
     if (isTyped && this.entries.pending.length > 0) return this.enter(name, value);
     const most = this.mostWidth() ?? Infinity, {doc} = this;
-    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // null: the largest width that fits
+    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // null: the largest that fits
     if (name === "width" && value > most && isTyped)
       this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();

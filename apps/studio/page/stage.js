@@ -319,7 +319,7 @@ export class Stage {
     this.drag = this.sun = null;
     TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
-    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture later, when all its points are found
+    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture when all its points are found
     this.drawOverlay();
   }
 

@@ -64,7 +64,7 @@ for (const [how, press] of Object.entries({
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
-    await type(option("height"), "1.25"); // height is the number beside a slider
+    await type(option("height"), "1.25"); // unlike the diameter, the height has a slider beside its field
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
     await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);

@@ -1,4 +1,4 @@
-// Tests the panel of letters and borders, the outlines and the handle on the picture, and the bytes of their files.
+// Tests the panel of letters and borders, the outlines and the handle on the picture, and the bytes of exported files.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
