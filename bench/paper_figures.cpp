@@ -142,7 +142,7 @@ Image8 surface_picture(const Scan& scan, const Shown* shown) {
 // Describes how heights are mapped from the control points to all visible points. The mapping interpolates the ratios
 // of these heights to known heights.
 struct Mapping {
-  bool is_gaussian = false;  // interpolate by Gaussian weights of the nearest control points, not by a B-spline
+  bool is_gaussian = false;  // by Gaussian weights of the nearest control points, not by a B-spline
   enum class Known { none, depths, uncompressed } known = Known::uncompressed;
   std::size_t control_points = usual_control_points;
 };

@@ -90,7 +90,7 @@ class Relief:
         """Writes the files that `relievo make` writes, with the same bytes: all of them or, on any error, none.
 
         The path of the solid ends in .stl, .3mf, .ply or .obj; its units are "mm" or "in". The path of the preview ends
-        in .png, that of the height map in .png (16 bits) or .tif (millimetres). Sizes are of the longer side, in pixels.
+        in .png, that of the height map in .png (16 bits) or .tif (millimetres). Sizes are longer sides in pixels.
         pixel_mm or dpi give the exact size of a pixel of the height map; its other keywords have the meaning of the
         flags of `relievo make`. The tool's picture needs the option tool. The report is JSON.
         """
