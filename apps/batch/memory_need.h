@@ -1,4 +1,4 @@
-// Estimates the memory that a job takes, before it runs. Tested by tests/cli/batch_jobs_test.cpp.
+// Estimates, before a job runs, how much memory it will take. Tested by tests/cli/batch_jobs_test.cpp.
 #pragma once
 
 #include "batch/jobs.h"

@@ -22,9 +22,8 @@ struct OutputKind {
 // Returns the names of all kinds as a text: "stl, 3mf, ... or report".
 std::string output_kind_names();
 
-// Returns the kinds in a list such as "stl,preview,report". Adds the preview, which the pages need. Errors:
-// kind option for other words, for two solids, for two height maps, and if there is neither a solid nor a
-// height map.
+// Parses a list of kinds such as "stl,preview,report". Adds the preview, which the pages need. Errors: kind option
+// if the list has an unknown word, two solids, two height maps, or neither a solid nor a height map.
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 
 // Returns the path of an output, relative to the folder of the outputs.

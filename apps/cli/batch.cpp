@@ -35,7 +35,7 @@ struct BatchArguments : MakeOptions {
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
-  std::vector<std::string> skipped = {};  // files of the folder that are the scan of no job
+  std::vector<std::string> skipped = {};  // files of the folder that no job has as its scan
 };
 
 // ------------------------------------------------------------------------------------------------- options
@@ -49,7 +49,7 @@ const std::set<std::string>& shared_options() {
     add_make_options(command, unused);
     std::set<std::string> found;
     for (const CLI::Option* option : command.get_options())
-      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // an alias has none
+      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // aliases lack names
     return found;
   }();
   return names;

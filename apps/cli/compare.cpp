@@ -62,8 +62,8 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws the model without shadows and without darkened hollows: they would darken the whole ground, as the
-  // model has its full depth.
+  // Draws the model without shadows and without darkened hollows. As the model has its full depth, these effects
+  // would darken the whole ground.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {

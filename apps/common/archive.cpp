@@ -140,7 +140,7 @@ Result<std::string> find_model(const std::vector<std::string>& names, std::strin
     return broken(archive, cat("expected an archive with a cloud or a mesh, found none in it",
                                other == names.end() ? "" : cat(", but ", *other, "; unpack it first")));
   }
-  // The other models of a 3MF are parts of its main one.
+  // In a 3MF file, the other models are parts of the main model.
   for (const std::string& model : models)
     if (model == "3D/3dmodel.model" || model == "3D/3DModel.model") return model;
   if (models.size() > 1)

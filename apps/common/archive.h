@@ -40,7 +40,7 @@ class Archive {
 bool is_archive(std::span<const std::byte> bytes);
 
 // Returns the name of the only model among the files of an archive. A model is a file with an ending that a
-// reader supports. Pictures are not models, and a text file is one only if it is the only file. Error
+// reader supports. Pictures are not models, and a text file counts as a model only if it is the only file. Error
 // messages call the archive `archive`. Errors: kind input if the archive has no model or several.
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
 

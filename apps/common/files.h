@@ -20,7 +20,7 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
 // Returns whether a file, a folder or a device has that path.
 bool is_there(const std::string& path);
 
-// Returns the path, continued from the folder if it is relative.
+// Returns the path if it is absolute; otherwise appends it to the folder.
 std::string path_in(const std::string& folder, const std::string& path);
 
 // Checks that the path is that of a regular file or does not exist. Errors: kind input for folders, devices and

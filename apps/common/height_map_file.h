@@ -39,7 +39,7 @@ inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
       &HeightMapTexts::high}}};
 
 struct HeightMapOrder : HeightMapOptions {
-  int bits = 0;          // per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
+  int bits = 0;          // bits per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
   bool is_tiff = false;  // false: PNG
   LengthUnit unit = LengthUnit::mm;
 

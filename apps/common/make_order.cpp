@@ -13,7 +13,7 @@ namespace relievo::app {
 
 namespace {
 
-// Returns the values of an order, and those of its project that the order does not give.
+// Returns the option values of an order, completed by those of its project.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
 }

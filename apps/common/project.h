@@ -42,7 +42,8 @@ Result<Project> read_project(std::string_view text, std::string_view name);
 // height and the method of the project are dropped.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
-// Returns the values of all options that have one: the given value, or else the default.
+// Returns an object with the value of each option: the given value, or else the default. Leaves out options that have
+// neither.
 nlohmann::json to_json(const OptionValues& options);
 
 // Returns the value of a JSON number or text; nothing for other types.
@@ -57,8 +58,8 @@ Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_vi
 // parse_options(), parse_depth(), read_base_image(), take_base_image() and read_ornaments().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
-// Returns the same options without the fonts and the list of ornaments, which read_ornaments() reads. Errors:
-// those of options_from_json() except for those of read_ornaments().
+// Does the same as options_from_json(), but does not read the fonts and the list of ornaments. Errors: those of
+// options_from_json() except for those of read_ornaments().
 Result<ReliefOptions> options_without_ornament_files(const nlohmann::json& json, std::string_view name);
 
 // Returns the path under the key "base-image" of an object with options; empty if it has none.

@@ -29,7 +29,7 @@ using EngineAction = Result<Answer> (*)(Engine&, const nlohmann::json&);
 // Returns the action of that name; null if there is none.
 EngineAction find_engine_action(std::string_view name);
 
-// Every method may be called from any thread.
+// The actions of the studio's server. Every method may be called from any thread.
 class Actions {
  public:
   Actions(OpenDocuments& documents, Store& store);
@@ -94,9 +94,9 @@ class Actions {
 
   OpenDocuments& documents_;
   Store& store_;
-  Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
+  Mutex storing_;         // guards store_ and first_; it stays locked while the disk works
   nlohmann::json first_;  // the input that the first page opens, or null
-  // The open documents by their ids. They are locked only briefly, also by threads that have locked storing_.
+  // The open documents by their ids. They are locked only briefly. A thread that has locked storing_ may lock them.
   Guarded<std::map<std::string, Opened>> opened_;
 };
 

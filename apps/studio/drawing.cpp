@@ -92,8 +92,8 @@ ReliefOptions coarse(ReliefOptions options) {
   return options;
 }
 
-// Returns whether a coarse piece is exactly as thick as the finished one, which is then as thick as the plate and the
-// relief together.
+// Returns whether the thickness of the piece, coarse or finished, is exactly that of the plate plus the height of the
+// relief.
 bool is_level(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
          options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
@@ -141,7 +141,7 @@ LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   return made;
 }
 
-// Returns two corners of the relief's bounding box, relative to the centre of the piece.
+// Returns the lower left and upper right corner of the relief's bounding box, relative to the centre of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
   if (options.wrap.kind != WrapKind::none) return std::nullopt;
@@ -317,7 +317,7 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (is_plain(request.options)) return along(live_.shown(made));
   const ReliefOptions wanted = piece_options(request, made);
   RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
-  // Making a coarse piece does not check the rim.
+  // Making a coarse piece does not check the rim, so the rim is checked here.
   RELIEVO_CHECK(check_rim(wanted, shown->height_mm.value_or(height_of(request, made).mm)));
   return section_of(*shown->solid, line);
 }

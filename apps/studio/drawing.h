@@ -75,9 +75,9 @@ struct PictureAnswer {
   bool is_size_exact = false;           // whether the exported piece has exactly this size
   std::optional<double> most_width_mm;  // largest width_mm with which the relief fits the plate
   std::optional<std::array<Vec2, 2>>
-      relief_mm;  // two corners of the relief's box, relative to the piece's centre; empty if it is bent
+      relief_mm;  // two opposite corners of the relief's box, from the piece's centre; empty if it is bent
 
-  // The share of the front's area that the tool can reach, and the greatest depth of material that it leaves.
+  // The share of the front's area that the milling tool can reach, and the greatest depth of material that it leaves.
   struct Reach {
     double share = 1, left_mm = 0;
   };

@@ -193,7 +193,7 @@ Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<S
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const OptionValues& view) {
-  // If the view's options are wrong, the next picture reports it.
+  // If the view's options are wrong, the next picture reports the error.
   Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
   const auto unread = std::make_shared<const ScanOrder>(input, reading_of(view));
   state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
@@ -213,7 +213,7 @@ void Engine::show(const ScanSource& input, const OptionValues& view) {
   if (!is_open || session.error)
     open(input, view);
   else if (!has_view)
-    (void)choose_view(view);  // if the view's options are wrong, the next picture reports it
+    (void)choose_view(view);  // if the view's options are wrong, the next picture reports the error
 }
 
 Result<void> Engine::choose_view(const OptionValues& view) {

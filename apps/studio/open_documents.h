@@ -12,7 +12,7 @@
 
 namespace relievo::app::studio {
 
-// Every method may be called from any thread.
+// The open documents and their engines. Every method may be called from any thread.
 class OpenDocuments {
  public:
   // The largest number of open documents that no tab shows, and of all open documents. Beyond these limits, the least

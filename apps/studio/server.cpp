@@ -33,7 +33,7 @@ class ScopedCount {
   ScopedCount& operator=(const ScopedCount&) = delete;
   ~ScopedCount() { --count_; }
 
-  // Returns the count just after this object increased it.
+  // Returns the value of the count just after this object increased it.
   int number() const { return number_; }
 
  private:

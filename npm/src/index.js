@@ -70,8 +70,8 @@ export class Relief {
     return this.#file("solid", `relief.${format}`, { units });
   }
 
-  // Returns the height map of the front as a file: a 16-bit PNG, or a TIFF ("tif") in millimetres. The options have the
-  // meaning of the command line's. pixel or dpi replace size; bits, area, zero and high are the flags --heightmap-*.
+  // Returns the height map of the front as a file: a 16-bit PNG, or a TIFF ("tif") in millimetres. The options mean
+  // the same as on the command line. pixel or dpi replace size; bits, area, zero and high are the flags --heightmap-*.
   heightMapFile(format = "png", { size = 1024, units = "mm", pixel, dpi, bits, area, zero, high } = {}) {
     const given = { pixel, dpi, "heightmap-bits": bits, "heightmap-area": area, "heightmap-zero": zero, "heightmap-high": high };
     const texts = Object.entries(given).filter(([, value]) => value !== undefined).map(([name, value]) => [name, String(value)]);

@@ -21,7 +21,7 @@ const MOVEMENTS = {
   // The brush moves in a circle without a rest. A position near the last one would change nothing, so no picture would
   // show its event.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
-  handle: {isHandle: true, from: 0.45, to: 0.6}, // of a text on an arc: the page itself moves the text's outlines
+  handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };
 
 const found = await findBrowser();
@@ -107,7 +107,7 @@ async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const isRange = !tool && !isHandle, box = await target.boundingBox();
   if (isHandle) Object.assign(box, {x: box.x + box.width / 2 - from * 600, width: 600});
-  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // position of the thumb
+  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // of the slider's thumb
   const place = (share, above = 0) => [box.x + box.width * share, box.y + box.height / 2 - above * box.width];
   await page.mouse.move(...place(grip));
   await page.mouse.down();

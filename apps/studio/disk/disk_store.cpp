@@ -224,7 +224,7 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// The file has mode 0600: anybody who knows the address could use the studio.
+// Only the user may read the file (mode 0600), since anybody who knows the address could use the studio.
 void DiskStore::keep_address(const StudioAddress& address) const {
   (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
               Durability::machine);

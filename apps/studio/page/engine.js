@@ -32,7 +32,7 @@ export const cancelled = () => new EngineError({kind: "cancelled", text: "Cancel
 export const TAB = Math.random().toString(36).slice(2); // the name of this tab of the browser
 
 export class Engine {
-  document = ""; // the document of most requests
+  document = ""; // the document to which most requests refer
   #transport;
   #making = null;
 

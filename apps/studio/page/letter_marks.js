@@ -111,7 +111,7 @@ export class LetterMarks {
       return this.stage.toPlace(clientX - left, clientY - top);
     };
     handle.onpointerdown = (event) => {
-      event.stopPropagation(); // the picture's tool must not take it
+      event.stopPropagation(); // the picture's tool must not handle it
       handle.setPointerCapture(event.pointerId);
       this.doc.endGesture();
       const {list, chosen} = this.panel, at = list[chosen].at ?? this.placed[chosen]?.at ?? [0, 0];

@@ -1,4 +1,4 @@
-// Lists the kinds of ornaments, and tells where each one is placed.
+// Lists the kinds of ornaments, and returns facts about where they are placed.
 
 import {FIRST, ON_GROUND} from "./document.js";
 import {fileNameOf} from "./file_field.js";

@@ -1,5 +1,5 @@
-// The stage shows the relief in the middle of the page: it requests pictures from the engine, and lets the user turn,
-// light and section the relief by mouse and keys.
+// Shows the relief in the middle of the page: requests pictures from the engine, and lets the user turn, light and
+// section the relief by mouse and keys.
 
 import {Comparing} from "./comparing.js";
 import {$, Pause, clamp, make, paint} from "./controls.js";
@@ -150,7 +150,7 @@ export class Stage {
     return asked;
   }
 
-  // Requests the next picture before the one that was asked for is shown, if the picture keeps changing.
+  // Requests the next picture before the requested one is shown, if the picture keeps changing.
   askAhead({isFine, number}) {
     if (isFine || this.ahead || number === this.wanted || this.isTable || this.waitsForPicture) return;
     this.ahead = this.ask(false, false);
@@ -164,7 +164,7 @@ export class Stage {
     return {image, facts: {...facts, options, isTurned: Boolean(request.turned)}};
   }
 
-  // Draws the relief that was asked for.
+  // Draws the picture that ask() has requested.
   async drawRelief(asked) {
     const {model, changedAt, isFine, isLast, picture} = asked;
     this.drawing = asked;

@@ -16,7 +16,7 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-export const START = "#start"; // ends an address of the page that shows the start page first
+export const START = "#start"; // if the address of the page ends in this, it first shows the start page
 
 // Shows the thumbnail of a document, or an icon if it has none. Returns the image element.
 function showThumbnail(image, thumbnail) {

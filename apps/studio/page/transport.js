@@ -2,7 +2,7 @@
 
 import {CANCELLED, EngineError, cancelled} from "./engine.js";
 
-const ASK = "status?"; // message of a new tab to the tab that has the stream
+const ASK = "status?"; // message of a new tab to the tab that has the stream of events
 
 async function errorIn(response) {
   try {

@@ -2,7 +2,7 @@
 import {CANCELLED, EngineError} from "../../studio/page/engine.js";
 
 export class EngineWorkers {
-  #workers; // the one that solves, and the one that draws
+  #workers; // the solver and the drawer, see worker.js
   #on;
   #waiting = new Map(); // unanswered requests by the number of their message
   #last = 0;
