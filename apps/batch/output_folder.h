@@ -14,8 +14,7 @@ namespace relievo::app::batch {
 Result<void> check_output_folder(const std::string& outputs);
 
 // Creates the folder, marks it as the folder of a batch, and creates the folder `inner` inside it. Each job
-// calls this function again, as the user may remove the folders during a run. Errors: those of
-// check_output_folder().
+// calls this again, as the user may remove the folders during a run. Errors: those of check_output_folder().
 Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner = {});
 
 }  // namespace relievo::app::batch

@@ -61,7 +61,6 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
 // destroyed. Errors: kind output.
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name);
 
-// Returns this machine's name.
 std::string host_name();
 
 // Returns the current time in UTC, "2026-11-24T12:00:00.000Z".

@@ -18,8 +18,7 @@ using RunWatcher = std::function<void(const Performed& end, std::size_t done)>;
 
 // Does all jobs, in no fixed order, and as many at the same time as the limits allow. Appends a line to the
 // journal for each job whose outputs were not up to date. A job that needs more memory than the limit runs alone.
-// A failed job does not end the run. Errors: kind output if the journal cannot be written or processes cannot be
-// started.
+// A failed job does not end the run. Errors: kind output if the journal or the processes fail.
 Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
                  const Journal& journal, const RunWatcher& watcher);
 

@@ -36,8 +36,7 @@ struct FrameRun {
   bool is_ahead = false;   // whether FrameMaker::make_ahead() is used
 };
 
-// Measures frames that are made as if a user dragged a slider. With a locked height this is the slider of the
-// saturation, otherwise that of the detail.
+// Makes frames as if a user dragged the saturation (with a locked height) or the detail, and measures them.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.

@@ -22,7 +22,6 @@ struct FileFormat {
   std::vector<std::byte> (*write_solid)(const Solid&) = nullptr;  // null for pictures
 };
 
-// Returns all formats.
 std::span<const FileFormat> file_formats();
 
 // Returns the format of that name; the pointer is never null. Errors: kind option; the message lists all formats.

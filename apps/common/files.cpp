@@ -26,8 +26,7 @@ std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
   return input_error(path, {}, cat("expected a file, found ", kind_of(mode)));
 }
 
-// Returns the size of the largest file to read: half of the memory. A larger file could be read, but not enough
-// memory would be left to make a relief of it.
+// Returns the largest size of a file to read: half of the memory. The rest is needed to make a relief of it.
 std::size_t most_bytes() {
 #if defined(__wasi__)
   return std::size_t{1} << 31;

@@ -23,14 +23,13 @@ bool is_there(const std::string& path);
 // Returns the path if it is absolute; otherwise appends it to the folder.
 std::string path_in(const std::string& folder, const std::string& path);
 
-// Checks that the path is that of a regular file or does not exist. Errors: kind input for folders, devices and
-// pipes.
+// Checks that the path is missing or is that of a regular file. Errors: kind input.
 Result<void> check_file(const std::string& path);
 
 // Returns the time of the last change of a file in ns since 1970; 0 for a missing file.
 std::int64_t time_of_change_ns(const std::string& path);
 
-// Returns the size of a file in bytes. Returns nothing for anything other than a regular file.
+// Returns the size of a regular file in bytes. Returns nothing for all other paths.
 std::optional<std::uint64_t> file_size(const std::string& path);
 
 // Returns the bytes of the text, as the content of a file.

@@ -93,8 +93,7 @@ struct FinishedRelief {
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 
-// Makes the relief. The caller must then call FinishedRelief::end(). Errors: those of make_relief(); they name the
-// inputs.
+// Makes the relief. The caller must then call end(). Errors: those of make_relief(); they also name the inputs.
 Result<FinishedRelief> make(LoadedOrder loaded, Progress& progress);
 
 // Calls check_order(), load() and make() in turn. Errors: those of the three functions.

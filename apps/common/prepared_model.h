@@ -29,8 +29,7 @@ class PreparedModel {
   // Makes a finished relief with the options of the order. Errors: those of options_of() and make_relief().
   Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
 
-  // Makes a frame with the options of the order. Errors: those of options_of(); kind option for a method that has
-  // no frames.
+  // Makes a frame with the order's options. Errors: those of options_of(); kind option for a method without frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
   // Draws a frame of this model in that material. Errors: kind input for a frame of another model, kind

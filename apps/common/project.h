@@ -42,8 +42,7 @@ Result<Project> read_project(std::string_view text, std::string_view name);
 // height and the method of the project are dropped.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
-// Returns an object with the value of each option: the given value, or else the default. Leaves out options that have
-// neither.
+// Returns an object with the value of each option that has a given value or a default.
 nlohmann::json to_json(const OptionValues& options);
 
 // Returns the value of a JSON number or text; nothing for other types.

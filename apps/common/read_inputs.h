@@ -68,7 +68,6 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Returns the remarks of all models.
 std::vector<std::string> remarks_of(const Scene& scene);
 
 // Returns whether the path ends in .json, as those of scene files do.

@@ -17,8 +17,7 @@ const SAMPLES = [
     ["--height", "2", "--diameter", "40", "--text", "СВОБОДА 1848", "--text-arc", "around"]],
 ];
 
-// Fonts that are read from files, each with a text. They have TrueType outlines, joined letters, reordered letters, and
-// PostScript outlines, also in a font collection.
+// Font files with TrueType outlines, joined letters, reordered letters, and PostScript outlines, and a text for each.
 const NOTO = "/usr/share/fonts/truetype/noto", FONTS = [
   [`${NOTO}/NotoNaskhArabic-Regular.ttf`, "السلام عليكم ١٢"],
   [`${NOTO}/NotoSerifHebrew-Regular.ttf`, "שָׁלוֹם עולם"],

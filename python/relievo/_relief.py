@@ -41,8 +41,7 @@ class Relief:
 
     @property
     def heights(self) -> NDArray[np.float32]:
-        """The heights of the front in millimetres above its lowest point, as a picture: rows from the top, and 1024
-        pixels on the longer side."""
+        """The heights of the front above its lowest point in mm, as a picture of 1024 pixels on the longer side."""
         if self._heights is None:
             self._heights = self.height_map()
             self._heights.setflags(write=False)

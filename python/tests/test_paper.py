@@ -72,9 +72,8 @@ def read_scan(path, most):
 @unittest.skipIf(reference is None, "SKIPPED: the reference needs SciPy, which scripts/prepare --python installs")
 class Paper(unittest.TestCase):
     def agrees(self, points, normals, *coefficients, correlation=0.999, error=0.005):
-        """Compares the heights of the program and the reference for coefficients alpha, beta and gamma. It uses points
-        that both find visible, without the boundary, which the program puts on the base. The error is the root mean
-        square as a share of the height."""
+        """Compares heights of program and reference for coefficients alpha, beta and gamma, at points visible in both
+        and not on the boundary, which the program puts on the base. The error is the rms as a share of the height."""
         # The reference gets normals in single precision, as the program uses them. At beta = 0.01, even the
         # curvatures that rounding errors cause on a plane get weights of about 0.5 by (6).
         front = reference.Front(points, normals.astype(np.float32))

@@ -18,8 +18,7 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  // The brush moves in a circle without a rest. A position near the last one would change nothing, so no picture would
-  // show its event.
+  // The brush moves in a circle. If it rested, a position near the last one would change nothing and give no picture.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
   handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };

@@ -115,8 +115,7 @@ export class Brush {
     return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
   }
 
-  // Returns the point, in the scan's coordinates, at a position in the figure's box. Its depth in the view is that of
-  // the point `other`.
+  // Returns the point at a position in the figure's box, as deep in the view as the point `other`, in scan coordinates.
   pointAt(place, other) {
     const {rotation, origin, size} = this.modelFacts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
     const depth = row(2).reduce((sum, x, i) => sum + x * other[i], 0);
@@ -144,8 +143,7 @@ export class Brush {
     return [make("path", {class: "stroke", d, "stroke-width": width.toFixed(1)}), make("path", {class: "cut", d})];
   }
 
-  // Returns SVG elements: the highlighted stroke, the outline of the brush, and the inner part of the brush, in which
-  // its effect is full.
+  // Returns SVG elements: the highlighted stroke, the outline of the brush, and that of its part with full effect.
   marks(stage) {
     this.stage = stage;
     if (!stage.facts?.relief_mm || !this.modelFacts() || stage.isAwaiting) return [];

@@ -8,9 +8,8 @@
 //                                  removes them; slowMs: if pictures take longer than this, they get fewer pixels}.
 //                                  The Engine has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
-//                                  picture; `facts` has facts about it; the request is optional. If heights for the
-//                                  next picture can be solved while this picture is drawn, onSolved is called as soon
-//                                  as the heights of this picture are solved
+//                                  picture; `facts` has facts about it; the request is optional. onSolved is called
+//                                  when the heights of a picture are solved, if the next can be solved meanwhile
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
 //                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
@@ -78,13 +77,11 @@ export class Engine {
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
 
-  // Returns the facts about the shown model.
   facts = () => this.#ask("facts");
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, facts}. `options.signal` can cancel the picture. `options.onSolved` is passed on to the
-  // transport.
+  // Return {image: ImageData, facts}. `options` has `signal`, which can cancel the picture, and onSolved (see above).
   picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
   // Returns a picture of the depth image. Its facts state the colours of the pixels that were left out.

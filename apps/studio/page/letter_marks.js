@@ -19,8 +19,7 @@ const pathOf = (outlines) => outlines.map((numbers) => {
   return `${path}Z`;
 }).join("");
 
-// Returns the centre of the outlines' bounding box as `middle`. `radius` is the mean of the outlines' smallest and
-// largest distance from the centre of the piece.
+// Returns the centre of the outlines' box, and the mean of their least and largest distance from the piece's centre.
 function extentOf(outlines) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   let nearest = Infinity, farthest = 0;
@@ -55,8 +54,7 @@ export class LetterMarks {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Returns an SVG transform with the movement of an ornament since the engine placed it, and the position of the
-  // ornament's handle in mm.
+  // Returns an ornament's movement since the engine placed it, as an SVG transform, and its handle's position in mm.
   movement(ornament, {ornament: was, at, middle, radius}) {
     const sign = this.isMirrored ? -1 : 1;
     if (isOnArc(ornament) && isOnArc(was)) {
@@ -95,8 +93,7 @@ export class LetterMarks {
     return [middleX + near * (x - middleX), middleY + near * (y - middleY)];
   }
 
-  // Shows the handle of an ornament at a position, or hides it. It must not be hidden even for a moment while it is
-  // in use, since it would lose the focus.
+  // Shows the handle of an ornament at a position, or hides it. A handle that is hidden loses the focus.
   showHandle(ornament, place = null) {
     this.handle.hidden = place === null;
     if (place === null) return;

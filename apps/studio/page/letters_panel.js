@@ -1,5 +1,5 @@
-// Shows the panel of ornaments, which are texts, borders and drawings on the ground: their list, buttons that add an
-// ornament, and the fields of the chosen one.
+// Shows the panel of ornaments (texts, borders, drawings): their list, buttons that add one, and the fields of the chosen
+// ornament.
 
 import {about} from "./about.js";
 import {$, make, oneAtATime, pair, textField} from "./controls.js";
@@ -60,8 +60,7 @@ export class LettersPanel {
     takeDropsOn($("#letters"), "Drop to use this font or drawing", (file) => this.take(file));
   }
 
-  // Takes a dropped or chosen file. A drawing becomes a new ornament. A font becomes that of the chosen text or, if no
-  // text is chosen, that of the only text.
+  // Takes a drawing as a new ornament, or a font for the chosen text or, if no text is chosen, for the only text.
   take(file) {
     const {list, chosen} = this, key = keyOfFile(file.name), isText = ({kind = "text"}) => kind === "text";
     const ofSole = list.filter(isText).length === 1 ? list.findIndex(isText) : -1;

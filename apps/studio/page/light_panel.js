@@ -1,5 +1,4 @@
-// Shows the panel of light and colour. Its controls set the light for which a relief is made, and the depth of dark
-// lines of a coloured scan.
+// Shows the panel of light and colour: the light for which a relief is made, and the depth of a coloured scan's lines.
 
 import {$, ARROWS, Pause, clamp, make, pair, textField} from "./controls.js";
 import {hasScale} from "./document.js";
@@ -20,8 +19,7 @@ function parse(text) {
 }
 const textOf = ({azimuth, elevation}) => `${whole(azimuth)},${clamp(Math.round(elevation), LOWEST, HIGHEST)}`;
 
-// Converts a direction of light to a position on the dial. Light from the viewer is in the middle, low light near the
-// rim.
+// Converts a direction of light to a position on the dial: light from the viewer is in the middle, low light outside.
 const placeOf = ({azimuth, elevation}) => {
   const [x, y] = direction(azimuth, 0), far = RADIUS * (90 - elevation) / 90;
   return [far * x, -far * y];

@@ -4,8 +4,7 @@
 
 const isPath = (source) => !/^(?:[{[]|$)/.test(source);
 
-// Returns the path of the file that contains the list; "" if the option itself contains it. The page can remove a list
-// in a file, but not change it.
+// Returns the path of the file with the list, which the page can remove but not change; "" if the option has the list.
 export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
 
 // Returns the text that the options `text`, `font` and `text-...` describe, as a list of at most one ornament. Projects

@@ -67,8 +67,7 @@ export class Painting {
     return this.settings.area === "lasso";
   }
 
-  // Returns the corner of a lasso at a position beside the model; it has the depth of the last corner. Returns null for
-  // other strokes.
+  // Returns a lasso's corner at a position beside the model, with the last corner's depth; null for other strokes.
   pointBeside(place) {
     const last = this.lines[0].at(-1);
     return this.isLasso && last ? this.brush.pointAt(place, last) : null;

@@ -1,5 +1,4 @@
-// Shows the panel of snapshots: takes a snapshot of the settings, lists the snapshots, and applies, compares, renames
-// and removes them.
+// Shows the panel that takes snapshots of the settings, lists them, and applies, compares, renames and removes them.
 
 import {$, make, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";

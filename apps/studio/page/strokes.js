@@ -76,8 +76,7 @@ export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   return parts.map((points, i) => ({...stroke, ...(i > 0 && {name: `${stroke.name}, part ${i + 1}`}), points}));
 });
 
-// Packs steps so that strokes that they share are stored only once. Returns the steps with indices in place of strokes,
-// and the strokes.
+// Packs steps so that shared strokes are stored once. Returns steps with indices in place of strokes, and the strokes.
 export function packed(steps) {
   const strokes = [], numbers = new Map();
   const numberOf = (stroke) => {

@@ -15,8 +15,7 @@ withPage("shell", 12000, async () => {
   await choose("Brush");
 });
 
-// Stores each new request for a picture in `sent`. The page itself reports its requests, since the driver of Firefox
-// does not report their bodies.
+// Stores each request for a picture in `sent`. The page reports them, since Firefox's driver does not report bodies.
 async function listen(of) {
   await of.exposeFunction("tellRequest", (body) => (sent = JSON.parse(body)));
   const tell = () => {
@@ -100,8 +99,7 @@ test("changes the relief where the mouse goes, and nowhere else", async () => {
   }
 });
 
-// Returns the scale of the picture in pixels per mm, computed from the drawn radius of the brush, which is 5 mm on this
-// relief.
+// Returns the scale of the picture in pixels per mm. On this relief the radius of the brush is 5 mm.
 const pixelsPerMm = async () => Number(await page.locator("#overlay .brush").first().getAttribute("r")) / 5;
 
 test("shows the stroke while it is drawn, in one step of undo", async () => {

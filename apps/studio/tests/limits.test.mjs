@@ -142,8 +142,7 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// A connection cannot buffer an answer of 7 MB. So the thread that sends the answer is blocked until the server closes
-// the connection.
+// A connection cannot buffer an answer of 7 MB. So the answering thread waits until the server closes the connection.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...PICTURE, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {

@@ -115,8 +115,7 @@ export class RandomEntries {
     await this.press("Redo");
   }
 
-  // Presses a button. First leaves the field, so that the page takes the typed text; this may change whether the button
-  // is enabled.
+  // Presses a button. First leaves the field, so that the page takes the text; this may enable or disable the button.
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);

@@ -72,8 +72,7 @@ export class BrowserStore {
     }
   }
 
-  // Returns {id, state, picture, touched} of a document; `picture` is its thumbnail. Returns nothing if the document is
-  // not stored.
+  // Returns {id, state, picture, touched} of a stored document, where `picture` is its thumbnail; otherwise nothing.
   document = (id) => this.#get("documents", id);
 
   // Stores the state of a document. Throws an error of kind "older" if a newer state is already stored, and of kind
