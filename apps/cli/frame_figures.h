@@ -86,8 +86,8 @@ struct ViewSeries {
 };
 
 struct ViewFigures {
-  double first_ms = 0;         // from the points in memory to the first frame of the first view
-  double first_turned_ms = 0;  // from the first view to the first frame of a turned relief
+  double first_ms = 0;         // time from the points in memory to the first frame of the first view
+  double first_turned_ms = 0;  // time from the first view to the first frame of a turned relief
   ViewSeries turned;           // turned reliefs (see the glossary), with one frame each
   ViewSeries prepared;         // fully prepared views, with one frame each
 };

@@ -91,7 +91,7 @@ class FileSource : public ByteSource {
 };
 
 // Returns the size of the file in bytes if it is so large that it may have to be read in blocks; nothing for
-// smaller files. The bound of points is compared with bytes, as a point has at least one byte.
+// smaller files. The largest number of points is compared with the bytes, as each point has at least one byte.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
   const double most = std::min(1e6 * arguments.stream_above_mb, arguments.most_points);

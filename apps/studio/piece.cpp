@@ -10,7 +10,7 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr std::size_t most_limits = 16;  // of draft_limit(), as options often return to earlier values
+constexpr std::size_t most_limits = 16;  // kept draft limits, since users often return to earlier options
 
 ReliefOptions without_height(ReliefOptions options) {
   options.height_mm.reset();

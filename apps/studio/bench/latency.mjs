@@ -18,7 +18,7 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  // The brush moves in a circle. If it rested, a position near the last one would change nothing and give no picture.
+  // The brush moves in a circle without a stop: an event near the last position paints nothing, so no picture follows.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
   handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };
@@ -106,7 +106,7 @@ async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const isRange = !tool && !isHandle, box = await target.boundingBox();
   if (isHandle) Object.assign(box, {x: box.x + box.width / 2 - from * 600, width: 600});
-  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // of the slider's thumb
+  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // where the thumb is
   const place = (share, above = 0) => [box.x + box.width * share, box.y + box.height / 2 - above * box.width];
   await page.mouse.move(...place(grip));
   await page.mouse.down();

@@ -81,7 +81,7 @@ export class Engine {
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, facts}. `options` has `signal`, which can cancel the picture, and onSolved (see above).
+  // Return {image: ImageData, facts}. `options` has a `signal` that can cancel the picture, and onSolved of transports.
   picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
   // Returns a picture of the depth image. Its facts state the colours of the pixels that were left out.
@@ -89,7 +89,7 @@ export class Engine {
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
-  // Returns the points of the model under places of its picture; null for places beside the model. A place
+  // Returns the points of the model under positions in its picture; null for positions beside the model. A position
   // is [x, y] from the lower left corner of the model's box, as shares of the box's width and height.
   pointsUnder = async (places) => (await this.#ask("points", {places})).points;
   // Returns {outlines, at, error} of each ornament; an outline is an array x, y, x, y ... in mm from the piece's middle.

@@ -149,7 +149,7 @@ export class KindCards {
     const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
     for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
     if (this.doc.gesture === null) this.showTitles();
-    if (kind === this.shown) return; // this method runs for each event of a drag
+    if (kind === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
   }

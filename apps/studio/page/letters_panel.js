@@ -1,5 +1,5 @@
-// Shows the panel of ornaments (texts, borders, drawings): their list, buttons that add one, and the fields of the chosen
-// ornament.
+// Shows the panel of ornaments (texts, borders and drawings): their list, buttons that add an ornament, and the fields
+// of the chosen one.
 
 import {about} from "./about.js";
 import {$, make, oneAtATime, pair, textField} from "./controls.js";

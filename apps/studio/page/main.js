@@ -291,7 +291,8 @@ async function arrived(status) {
   depthPanel.tell(modelFacts.depth_image).catch(failed);
   lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models); // else a new scene file could not refer to them
+  // With takesSeveral there is no panel: a new scene file could not refer to the models' files.
+  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models);
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();

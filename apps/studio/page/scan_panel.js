@@ -120,7 +120,7 @@ export class ScanPanel {
   show() {
     const {crop, crumbs, plane, doubtful, denoise} = this.doc.now.options;
     const key = [crop, crumbs, plane, doubtful, denoise, this.facts?.noise].join();
-    if (key === this.shown) return; // this method runs for each event of a drag
+    if (key === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     if (!isUnfinished($("#crop"))) $("#crop").value = crop;

@@ -517,7 +517,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // 2.465 radii by 2 radii, plus the margins
+  await untilWide(1.15, 1.25); // both balls: 2.465 by 2 radii of the larger one, plus the margins
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();

@@ -109,7 +109,7 @@ export class Transport {
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
-  // Ends the workers, because they handle no messages while they compute.
+  // Cancels work by ending the workers, because they handle no messages while they compute.
   #cancel() {
     this.#end(cancelled(), closed());
     this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
