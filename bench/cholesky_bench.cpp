@@ -1,4 +1,4 @@
-// Times the solver on Laplacians of Delaunay triangulations of random points, for several numbers of points.
+// Times the Cholesky solver on Laplacians of Delaunay triangulations of random points, for several numbers of points.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -41,8 +41,8 @@ double half_cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
 }
 
-// Returns a system with cotangent weights, which are clamped like those of HeightSystem. The points of the
-// hull are tied to 0.
+// Returns a system with cotangent weights, which are clamped like those of HeightSystem. At the points of the convex
+// hull the solution is 0.
 System make_system(std::size_t n) {
   System system;
   system.positions = scattered(n);

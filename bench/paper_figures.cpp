@@ -24,8 +24,8 @@
 namespace relievo {
 namespace {
 
-// A scan, with what the drawings need of it. Pictures show it as previews do, 100 mm wide on a plate
-// with a margin of 5 mm, with 7.5 mm around it.
+// A scan, with the values that its drawings need. Pictures show it as previews do: its longer side is 100 mm, the plate
+// adds a margin of 5 mm on each side, and 7.5 mm of white surround the plate.
 struct Scan {
   std::shared_ptr<const ReliefModel> model;
   const Surface& surface = model->surface();
@@ -86,14 +86,14 @@ Image8 on_white(const Image8& drawn) {
   return image;
 }
 
-// Places on the horse of Fig. 9, as shares of its box from the lower left.
+// Places on the horse of Fig. 9. `share` is the position in the horse's bounding box, from its lower left corner.
 struct Place {
   const char* name;
   Vec2 share;
 };
 const std::array places{Place{"abdomen", {.43, .54}}, Place{"hip", {.21, .65}}, Place{"neck", {.77, .84}}};
 
-// Returns the mean height of the points whose distance from the place is in that range, in the longer side.
+// Returns the mean height of the points whose distance from the place is in `range`, in shares of the longer side.
 double mean_height(const Scan& scan, const Relief& relief, const Vec2& place, const Vec2& range) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < scan.visible.size(); ++i) {
@@ -103,7 +103,7 @@ double mean_height(const Scan& scan, const Relief& relief, const Vec2& place, co
   return sum / count;
 }
 
-// Prints, for each beta of Fig. 9, the heights at the places and how far these bulge out of their surroundings, as
+// Prints, for each beta of Fig. 9, the heights at the places, and how much higher they are than their surroundings, as
 // shares of the relief's height. Returns a picture of the places.
 Result<Image8> saturation_picture(const Scan& scan) {
   Image8 image = white(scan);
@@ -133,13 +133,14 @@ Image8 surface_picture(const Scan& scan, const Shown* shown) {
   options.mm_per_unit = scan.mm_per_unit;
   options.is_fine = true;
   options.camera.zoom = 110. / 125;
-  options.has_shadows = shown != nullptr;  // at the model's full depth they would cover the ground
+  options.has_shadows = shown != nullptr;  // the model is so deep that its shadows would cover the ground
   Picture picture;
   renderer.render(shown ? *shown : renderer.original(), options, picture);
   return on_white(picture.image);
 }
 
-// Chooses how heights are mapped from the control points to all visible points, as ratios to known heights.
+// Describes how heights are mapped from the control points to all visible points. The mapping interpolates the ratios
+// of these heights to known heights.
 struct Mapping {
   bool is_gaussian = false;  // by Gaussian weights of the nearest control points, not by a B-spline
   enum class Known { none, depths, uncompressed } known = Known::uncompressed;
@@ -155,7 +156,7 @@ Heights solved(const PaperModel& model, double u) {
   return heights;
 }
 
-// Returns one known height per visible point: 1, the scan's depth, or that of (9) with w_k = 1.
+// Returns one known height per visible point: 1, the scan's depth, or the height from equation (9) with w_k = 1.
 Heights known_heights(const Scan& scan, Mapping::Known known) {
   if (known == Mapping::Known::none) return Heights(scan.visible.size(), 1);
   if (known == Mapping::Known::uncompressed)
@@ -166,7 +167,7 @@ Heights known_heights(const Scan& scan, Mapping::Known known) {
   return depths;
 }
 
-// Returns the means of the ratios of the twelve nearest control points, with Gaussian weights.
+// Returns, for each visible point, the mean of the ratios of its twelve nearest control points, with Gaussian weights.
 Heights gaussian_ratios(std::span<const Vec2> control, std::span<const float> ratios,
                         std::span<const Vec2> visible) {
   const KdTree<Vec2> tree(control);
@@ -210,7 +211,7 @@ Result<Heights> mapped_heights(const Scan& scan, const Mapping& mapping, double 
   return heights;
 }
 
-// Returns the picture of the relief, and prints how far its heights are from those without control points.
+// Returns the picture of the relief, and prints how much its heights differ from those solved without control points.
 Result<Image8> mapping_picture(const Scan& scan, const Mapping& mapping) {
   const double u = std::pow(4, -.01);
   RELIEVO_TRY(const Heights heights, mapped_heights(scan, mapping, u));
@@ -226,7 +227,7 @@ Result<Image8> mapping_picture(const Scan& scan, const Mapping& mapping) {
   return surface_picture(scan, &shown);
 }
 
-// Returns the curve y(x) for x in [0, most_x] and y in [0, 1], in the panel of that number.
+// Returns the SVG of the curve y(x) for x in [0, most_x] and y in [0, 1]. `panel` is the number of its diagram.
 std::string curve(int panel, double most_x, const std::function<double(double)>& y) {
   std::string text = "<polyline points=\"";
   for (int i = 0; i <= 200; ++i)
@@ -234,8 +235,8 @@ std::string curve(int panel, double most_x, const std::function<double(double)>&
   return text + "\"/>\n";
 }
 
-// Fig. 3, and (7) and (5): the weight of curvature for several alpha, then for several beta; the weight of the
-// boundary; and the angle of the expected normal, as a share of 90 degrees, over w.
+// Returns an SVG with four diagrams: Fig. 3, the weight of curvature (6) for several alpha, and for several beta; the
+// weight of the boundary (7); and the angle of the expected normal (5) over w, as a share of 90 degrees.
 std::string weight_curves() {
   constexpr double delta = .25;
   std::string text =

@@ -17,9 +17,9 @@ function writeModule() {
     `// The WebAssembly module, compressed by gzip, in base64.\nexport const compressedModule = "${packed.toString("base64")}";\n`);
 }
 
-// The type of an option follows from its unit and stage. OF_NUMBERS: units of texts that may also be numbers or that
-// start with a word. WITH_SETTINGS: units of words that may have settings after a colon. The words of all other options
-// are their only values.
+// The TypeScript type of an option follows from its unit and stage. OF_NUMBERS matches the units of texts that may also
+// be numbers or that start with a word. WITH_SETTINGS matches the units of words that may be followed by a colon and
+// settings. All other options that have words accept only these words.
 const OF_NUMBERS = /,|^(SIDE|NOISE|WHAT)$/, WITH_SETTINGS = /^(SHAPE|BODY)$/;
 
 function typeOf(option) {

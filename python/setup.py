@@ -1,7 +1,7 @@
 """Builds the wheel. Its native module and its stub file come from CMake, as built by `cmake --build build/python
 --target relievo_python_package`.
 
-RELIEVO_BUILD may name another build folder than `../build/python`. If it has no build yet, one is configured.
+The environment variable RELIEVO_BUILD may name another build folder. If the folder has no build yet, one is configured.
 """
 
 import os

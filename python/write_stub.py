@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 
 def annotation(value):
-    """Returns the text of an annotation for the stub file."""
+    """Returns a type annotation as text for the stub file."""
     text = value if isinstance(value, str) else inspect.formatannotation(value)
     text = text.replace("typing.", "").replace("NoneType", "None").replace("Path]", "Union[str, os.PathLike[str]]]")
     text = re.sub(r"\bProgress\b", "Optional[Callable[[str, float], object]]", text)

@@ -10,7 +10,7 @@ NUMBERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "
 
 
 class Refused(Exception):
-    """A scan that is left out, and why."""
+    """The reason why a scan is left out."""
 
 
 def chunks(png):
@@ -27,7 +27,7 @@ def paeth(left, above, corner):
 
 
 def without_filter(kind, line, above):
-    """Undoes the filter of one line of a PNG file with two bytes per pixel, in place."""
+    """Undoes the PNG filter of one line of an image with two bytes per pixel, in place."""
     for i, byte in enumerate(line):
         left, corner = (line[i - 2], above[i - 2]) if i >= 2 else (0, 0)
         predicted = (0, left, above[i], (left + above[i]) // 2)[kind] if kind < 4 else paeth(left, above[i], corner)
@@ -36,7 +36,7 @@ def without_filter(kind, line, above):
 
 
 def read_png(png):
-    """Returns width, height and the greys, line by line from the top, of a PNG file of 16-bit greys."""
+    """Returns the width, the height and the values of a PNG file with 16-bit greys, line by line from the top."""
     parts = list(chunks(png))
     width, height, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", parts[0][1])
     if (bits, colour, interlaced) != (16, 0, 0):

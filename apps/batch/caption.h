@@ -1,4 +1,4 @@
-// Writes names into pictures, in letters of 5 x 7 pixels. Tested by tests/cli/batch_pages_test.cpp.
+// Draws captions into pictures, in letters of 5 x 7 pixels. Tested by tests/cli/batch_pages_test.cpp.
 #pragma once
 
 #include <array>

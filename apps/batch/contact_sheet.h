@@ -14,7 +14,7 @@ namespace relievo::app::batch {
 
 inline constexpr std::size_t tiles_per_sheet = 144;
 
-// Returns the pixels of a PNG in 3 channels; an empty picture if it cannot be read.
+// Decodes a PNG to a picture of 3 channels. Returns an empty picture if the bytes cannot be read.
 Image8 read_png(std::span<const std::byte> bytes);
 
 // Returns a tile of `side` x `side` pixels with the front view of a preview, which is its left half (see
@@ -27,8 +27,8 @@ struct Tile {
   std::string name;
 };
 
-// Returns a picture of at most tiles_per_sheet tiles, row by row, about as wide as it is high. Below each
-// tile is its name. A cross replaces an empty tile.
+// Draws at most tiles_per_sheet tiles row by row into one picture, which is about as wide as it is high. Below
+// each tile is its name. A tile without a picture shows a cross.
 Image8 contact_sheet(const std::vector<Tile>& tiles, int side);
 
 }  // namespace relievo::app::batch

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-// Adds the file and the files to which it refers.
+// Appends a file, and the files to which that file refers, to `files`.
 void add_file(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   const std::string ending = ending_of(path);

@@ -12,15 +12,15 @@ struct Summary {
   std::size_t made = 0, failed = 0, missing = 0;
 };
 
-// Returns the numbers of jobs that succeeded, failed, and were not done yet.
+// Counts the jobs that succeeded, that failed, and that have not been done yet.
 Summary summary_of(const std::vector<Job>& jobs, const Records& records);
 
-// Returns groups of two or more jobs whose scans have the same content and whose options are the same, as
-// lists of the jobs' names.
+// Finds jobs whose scans have the same content and whose options are equal. Returns each group of two or more
+// such jobs as a list of their names.
 std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records);
 
-// Writes three things into the folder of the outputs: scans.jsonl, with the last record of each job in the
-// order of the jobs; contact sheets of all previews; and index.html, the page of index_page(). Errors: kind
+// Writes three things into the folder of the outputs: scans.jsonl, which contains the last record of each job
+// in the order of the jobs; contact sheets of all previews; and index.html, see index_page(). Errors: kind
 // output.
 Result<void> finish(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings);
 

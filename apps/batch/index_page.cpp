@@ -119,7 +119,7 @@ std::string card(const Job& job, const Record& record, const RunSettings& settin
              "</span></div></div>\n");
 }
 
-// Returns the error without the folder of the scan, which readers of the page do not need.
+// Returns the error message without the path of the scan's folder, which readers of the page do not need.
 std::string error_text(const Job& job, const Record& record) {
   if (job.file.empty() || !record.error.starts_with(job.file)) return record.error;
   return std::filesystem::path(job.file).filename().string() + record.error.substr(job.file.size());

@@ -15,8 +15,7 @@ namespace relievo::app::batch {
 std::string index_page(const std::vector<Job>& jobs, const Records& records, const RunSettings& settings,
                        const std::vector<std::string>& sheets);
 
-// Returns the relative path as an address for a link. All characters except letters, digits and - . _ / are
-// written as %XX.
+// Converts a relative path to a relative URL: writes all characters except letters, digits and - . _ / as %XX.
 std::string url_of_path(std::string_view path);
 
 }  // namespace relievo::app::batch

@@ -113,7 +113,7 @@ class TableJobs {
       : table_(table), catalogue_(catalogue), folder_(fs::path(catalogue.path).parent_path()) {}
 
   Result<std::vector<Job>> list() {
-    // The names that the table states are reserved first, so that no generated name can take one of them.
+    // The names in the column `name` are reserved first, so that no generated name equals one of them.
     for (const TableRow& row : table_.rows)
       if (const std::string& name = cell(row, "name"); !name.empty())
         if (!is_inside(name) || !names_.take(fs::path(name).lexically_normal().string()))
@@ -169,7 +169,7 @@ std::string nearest_column(const std::string& typed) {
 Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
                                        const std::function<bool(const std::string&)>& is_option) {
   const std::string ending = ending_of(catalogue.path);
-  const bool may_be_table = ending == "csv" || ending == "txt";  // some scans have these endings, too
+  const bool may_be_table = ending == "csv" || ending == "txt";  // scans may have these endings, too
   if (is_scan_name(catalogue.path) && !may_be_table)
     return input_error(catalogue.path, {},
                        "expected a folder of scans or a table of them, found a scan; see relievo make");

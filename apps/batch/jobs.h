@@ -1,4 +1,4 @@
-// Lists the scans of a catalogue, each with the options of its relief. Tested by
+// Lists the scans of a catalogue (a folder or a table), each with the options of its relief. Tested by
 // tests/cli/batch_jobs_test.cpp.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace relievo::app::batch {
 using Options = std::map<std::string, std::string>;
 
 struct Job {
-  std::string name;  // path of the outputs relative to their folder, without the ending
+  std::string name;  // path of the output files without their endings, relative to Catalogue::outputs
   std::string file;  // absolute path, which is valid on all machines that share the file system
   Options options;
 };
@@ -30,16 +30,16 @@ struct Catalogue {
 
 // Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table (see table.h), row
 // by row. In a folder that contains clouds or meshes, pictures count as textures and are left out. A table
-// has the columns `file`, relative to the table; optionally `name`, the name of the outputs; and any options
-// for which is_option() returns true. An empty cell means the value that all jobs have. A job without a name
-// gets that of its file, with -2 behind it if another job has that name. Errors: kind input if the path cannot
-// be read, if there are no scans, if a row has no file, and for a name in the table that is not unique or leads
-// out of the folder; kind option for other columns.
+// has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a column
+// for each option for which is_option() returns true. For an empty cell, the option's value in
+// Catalogue::common applies. A job without a name is named after its file; -2 is appended if another job has
+// that name. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, and if
+// a name in the table is not unique or leads out of the folder; kind option if the table has any other column.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// Returns the files of a folder that are the scan of no job, sorted and relative to the folder. Leaves out
-// hidden files and the folder of the outputs. Returns nothing if the catalogue is a table.
+// Returns the files of a folder that no job has as its scan, sorted, as paths relative to the folder. Leaves
+// out hidden files and the folder of the outputs. Returns nothing if the catalogue is a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
 // Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file
@@ -47,12 +47,12 @@ std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::ve
 // is returned.
 std::vector<std::string> files_of(const Job& job);
 
-// Returns whether this value of the option is the path of a file.
+// Returns whether the option accepts the path of a file and `value` is the path of an existing file.
 bool is_path(const std::string& option, const std::string& value);
 
 nlohmann::json to_json(const Job& job);
 
-// Returns the job that to_json() wrote. Errors: kind input.
+// Reads a job from the JSON that to_json() wrote. Errors: kind input.
 Result<Job> job_from_json(const nlohmann::json& json);
 
 }  // namespace relievo::app::batch

@@ -32,7 +32,7 @@ double number_or(const Options& options, const std::string& name, double otherwi
   return value;
 }
 
-// Returns the memory, in MB, for reading one file and using its points.
+// Estimates the memory, in MB, that is needed to read one file and to make a relief of its points.
 double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
   std::error_code failed;
   const std::uintmax_t bytes = fs::file_size(path, failed);

@@ -1,4 +1,4 @@
-// Estimates the memory that a job takes, before it runs. Tested by tests/cli/batch_jobs_test.cpp.
+// Estimates, before a job runs, how much memory it will take. Tested by tests/cli/batch_jobs_test.cpp.
 #pragma once
 
 #include "batch/jobs.h"
@@ -9,8 +9,8 @@ namespace relievo::app::batch {
 // figures of docs/batch.md. Opens each file and reads its first 64 kB.
 double memory_need_mb(const Job& job);
 
-// Returns the memory that this process may still allocate, in megabytes: the available memory of the machine
-// or, if that is less, the rest of its control group's limit, as in a container or under Slurm.
+// Returns the memory, in MB, that this process may still allocate: the available memory of the machine or, if that
+// is less, the unused part of its control group's limit. Containers and Slurm set such limits.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

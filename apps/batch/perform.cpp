@@ -95,7 +95,7 @@ Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list) {
   if (count("--heightmap") > 1) return option_error("files", "expected one kind of height map, found 2");
   if (count("--output") + count("--heightmap") == 0)
     return option_error("files", "expected a kind of solid or of height map, found neither");
-  // A call of `make` needs --output. Without a solid, the height map is its output.
+  // `make` requires --output. If no solid is wanted, --output is the path of the height map.
   if (count("--output") == 0) std::ranges::find(kinds, "--heightmap", &OutputKind::flag)->flag = "--output";
   return kinds;
 }

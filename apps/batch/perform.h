@@ -16,21 +16,20 @@ namespace relievo::app::batch {
 struct OutputKind {
   std::string name;    // name of a format of export_file.h, or "report"
   std::string ending;  // appended to the job's name: ".stl", "-heights.png"
-  std::string flag;    // the flag of `make` that takes the path of such a file
+  std::string flag;    // the flag of `make` that sets the path of this file
 };
 
 // Returns the names of all kinds as a text: "stl, 3mf, ... or report".
 std::string output_kind_names();
 
-// Returns the kinds in a list such as "stl,preview,report". Adds the preview, which the pages need. Errors:
-// kind option for other words, for two solids, for two height maps, and if there is neither a solid nor a
-// height map.
+// Parses a list of kinds such as "stl,preview,report". Adds the preview, which the pages need. Errors: kind option
+// if the list has an unknown word, two solids, two height maps, or neither a solid nor a height map.
 Result<std::vector<OutputKind>> parse_output_kinds(std::string_view list);
 
 // Returns the path of an output, relative to the folder of the outputs.
 std::string output_name(const Job& job, const OutputKind& kind);
 
-// The error of a call. `may_succeed`: the same call may succeed later.
+// The error of a call of `relievo`. `may_succeed`: the same call may succeed later.
 struct MakeError {
   std::string line;
   bool may_succeed = false;
@@ -56,8 +55,8 @@ struct JobResult {
   Record record;
 };
 
-// Makes the outputs of a job unless they are up to date: this version made them from the same file contents
-// and options, and their sizes have not changed since. A failed job is repeated only if it may succeed now.
+// Makes the outputs of a job unless they are up to date, that is, unless this version made them from the same contents
+// and options and their sizes have not changed since. A failed job is repeated only if it may succeed now.
 JobResult perform(const PlannedJob& planned, const RunSettings& settings, int threads);
 
 // Returns the arguments with which `make` does the job.

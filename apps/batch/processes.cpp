@@ -34,13 +34,13 @@ std::string read_all(int descriptor) {
 // Does the job in its own process, and sends the record to the parent.
 [[noreturn]] void run_in_child(const PlannedJob& planned, const RunSettings& settings, int threads, int pipe,
                                pid_t parent) {
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // the signal to this process when the parent ends
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // when the parent ends, this process gets SIGTERM
   if (::getppid() != parent) ::_exit(0);  // the parent ended before prctl() was called
   const JobResult result = perform(planned, settings, threads);
   nlohmann::json json = to_json(result.record);
   json["is_kept"] = result.is_kept;
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  // If the writing fails, the parent gets no record, and reports how the process ended.
+  // If write_all() fails, the parent gets no record, and reports how this process ended.
   (void)write_all(pipe, std::as_bytes(std::span(text)));
   std::fflush(stderr);
   ::_exit(0);  // does not run the destructors of static objects, which belong to the parent

@@ -31,7 +31,7 @@ fs::path journals_in(const std::string& outputs) {
   return fs::path(outputs) / journal_folder;
 }
 
-// Opens a file beside the journals. Makes the file and its folder if they are missing.
+// Opens a file in the folder of the journals. Creates the file and the folder if they are missing.
 Result<Descriptor> open_beside_journals(const std::string& outputs, const std::string& name,
                                         const char* expected) {
   RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
@@ -140,8 +140,8 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
 
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name) {
   RELIEVO_TRY(Descriptor file, open_beside_journals(outputs, "jobs.lock", no_lock));
-  // One file contains the locks of all jobs: a job locks the byte at the position that is the hash of its
-  // name. Network file systems support locks of single bytes, too.
+  // All jobs lock bytes of the same file. A job locks the byte whose position is the hash of the job's name.
+  // Network file systems support locks of single bytes, too.
   struct flock byte {};
   byte.l_type = F_WRLCK;
   byte.l_whence = SEEK_SET;

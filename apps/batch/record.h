@@ -20,14 +20,14 @@ struct Record {
   bool may_succeed = false;  // whether a failed job may succeed later, because memory or a disk was full
   std::string hash = {};     // hash of files, options and version; empty if the scan could not be read
   double seconds = 0, cpu_seconds = 0, peak_mb = 0;
-  std::map<std::string, std::uintmax_t> outputs = {};  // maps paths in the folder to sizes in bytes
+  std::map<std::string, std::uintmax_t> outputs = {};  // maps the paths of outputs to their sizes in bytes
   std::string host = {}, finished = {};                // finished: time in UTC
 };
 
 // Returns the record as the JSON object that a line of the journal contains.
 nlohmann::json to_json(const Record& record);
 
-// Returns the record in a line; nothing for other text, such as an incomplete line.
+// Reads the record from a line of the journal. Returns nothing for other text, such as an incomplete line.
 std::optional<Record> record_from_line(std::string_view line);
 
 using Records = std::map<std::string, Record>;  // maps the name of a job to its last record
@@ -43,7 +43,7 @@ class Journal {
   // Creates the folder and the file if they are missing. Errors: kind output.
   static Result<Journal> open(const std::string& outputs);
 
-  // Errors: kind output.
+  // Appends the record as a line. Errors: kind output.
   Result<void> append(const Record& record) const;
 
  private:
@@ -61,7 +61,6 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
 // destroyed. Errors: kind output.
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name);
 
-// Returns this machine's name.
 std::string host_name();
 
 // Returns the current time in UTC, "2026-11-24T12:00:00.000Z".

@@ -19,8 +19,8 @@ struct Table {
   std::vector<TableRow> rows;        // each row has a cell for every column
 };
 
-// Returns the table in the text of a file. Errors call the file `name`. The separator is a comma, a semicolon
-// or a tab: the first of these in the first row. A cell in quotation marks may contain separators and line
+// Parses the table in the text of a file. Error messages call the file `name`. The separator is a comma, a semicolon
+// or a tab, whichever occurs first in the first row. A cell in quotation marks may contain separators and line
 // breaks; a quotation mark in it is doubled. Missing cells at the end of a row are empty. Rows in which all
 // cells are empty are left out. Errors: kind input, with the line's number, for a table without columns, a
 // column without a name, two columns with the same name, more cells than columns, and an unclosed quotation

@@ -35,7 +35,7 @@ struct BatchArguments : MakeOptions {
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::RunSettings settings;
-  std::vector<std::string> skipped = {};  // files of the folder that are the scan of no job
+  std::vector<std::string> skipped = {};  // files of the folder that no job has as its scan
 };
 
 // ------------------------------------------------------------------------------------------------- options
@@ -49,7 +49,7 @@ const std::set<std::string>& shared_options() {
     add_make_options(command, unused);
     std::set<std::string> found;
     for (const CLI::Option* option : command.get_options())
-      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // an alias has none
+      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // aliases lack names
     return found;
   }();
   return names;
@@ -64,7 +64,7 @@ batch::Options given_options(const CLI::App& command) {
   return options;
 }
 
-// One part of the jobs, which are divided into `count` parts. `index` counts from 1.
+// The part number `index`, counted from 1, if the jobs are divided into `count` parts.
 struct Shard {
   std::size_t index = 1, count = 1;
 };
@@ -81,8 +81,8 @@ Result<Shard> parse_shard(const std::string& text) {
   return shard;
 }
 
-// Returns every count-th job. Neighbours in a catalogue are often alike, so all shards then take about
-// equally long.
+// Returns every count-th job. Neighbouring scans in a catalogue are often alike, so this choice makes all shards
+// take about equally long.
 std::vector<batch::Job> jobs_of_shard(const std::vector<batch::Job>& jobs, const Shard& shard) {
   std::vector<batch::Job> part;
   for (std::size_t i = shard.index - 1; i < jobs.size(); i += shard.count) part.push_back(jobs[i]);
@@ -178,9 +178,9 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// Returns the job's record if the job was done after list() printed its line; nothing if its first output or
-// its record is missing. A Dask worker (python/relievo/batch.py) may die after its program has done the job,
-// or while that program goes on. Another worker then gets the same job.
+// Returns the job's record if the job was done after list() printed its line; nothing if the record or the first
+// output is missing. Reason: if a Dask worker (python/relievo/batch.py) dies, another worker gets the same job,
+// although the program that the dead worker started may have done it, or may still be doing it.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::RunSettings& settings) {
   const std::string output = batch::output_name(job, settings.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(settings.outputs) / output, ignored)) return std::nullopt;
@@ -205,7 +205,7 @@ Result<batch::Record> do_job(const std::string& listed, const batch::RunSettings
   nlohmann::json line = to_json(result.record);
   line["is_kept"] = result.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  // If nobody reads the records any more, the flush fails and the program ends.
+  // If no process reads the records any more, the flush fails and the program ends.
   if (std::fflush(stdout) != 0)
     return system_error(ErrorKind::output, planned.job.name, "expected a reader of records");
   return result.record;

@@ -62,8 +62,8 @@ class PlatePictures {
     options_.height = static_cast<int>(std::lround(px_per_mm * plate.y()));
   }
 
-  // Draws the model without shadows and without darkened hollows: they would darken the whole ground, as the
-  // model has its full depth.
+  // Draws the model without shadows and without darkened hollows. As the model has its full depth, these effects
+  // would darken the whole ground.
   Image8 of_model() { return draw(renderer_.original(), false); }
 
   Image8 of_relief(const Relief& relief) {
@@ -92,7 +92,7 @@ struct Comparer {
   ReliefMetrics metrics{model->surface()};
   std::optional<PlatePictures> pictures = {};
 
-  // Returns the relief by the method of that name; by a baseline with its best parameters.
+  // Makes the relief by the method of that name. A baseline gets its best parameters.
   Result<TunedRelief> relief_by(std::string_view name, double height, double unit_mm) const {
     if (std::ranges::count(baseline_names(), name) != 0)
       return best_baseline(name, {model->surface(), *model->system(), metrics}, height, unit_mm);
@@ -103,7 +103,7 @@ struct Comparer {
     return TunedRelief{std::move(relief), ""};
   }
 
-  // Appends a relief per method, `share` times the width high. Appends none if one fails.
+  // Appends one relief per method, with a height of `share` times the width. Appends none if one method fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
     const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
@@ -117,8 +117,8 @@ struct Comparer {
   }
 };
 
-// Heights are fractions of the width here, but lengths in the other commands. The message of CLI11 would not
-// say so.
+// Returns the message for a wrong height; empty if the height is right. In this command heights are fractions of
+// the width; in the others they are lengths. CLI11's own message would not mention that.
 std::string height_error(const std::string& text) {
   if (CLI::Range(1e-4, 1.0)(text).empty()) return {};
   return cat("expected fractions of the width, 0.0001 to 1, found ", text);

@@ -13,9 +13,9 @@ namespace relievo::app::cli {
 struct ComparedRelief {
   std::string_view method;
   double height = 0;       // as a fraction of the width
-  std::string parameters;  // of a baseline, see TunedRelief
+  std::string parameters;  // the parameters of a baseline, see TunedRelief
   Measures measures;
-  Image8 picture;  // empty if no page is wanted; so is Comparison::model
+  Image8 picture;  // empty, like Comparison::model, if no page is wanted
 };
 
 struct Comparison {

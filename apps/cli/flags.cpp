@@ -31,7 +31,7 @@ Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {
   return text_of(tool);
 }
 
-// Returns the unit that --units sets; millimetres if the user or the command does not have that flag.
+// Returns the unit that --units sets; millimetres if the user has not given that flag or the command lacks it.
 LengthUnit unit_of(const CLI::App& command) {
   const CLI::Option* const units = command.get_option_no_throw("--units");
   if (units == nullptr || units->count() == 0) return LengthUnit::mm;

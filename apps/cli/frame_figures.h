@@ -25,18 +25,18 @@ struct FrameFigures {
   std::size_t visible_points = 0;
   std::size_t control_points = 0;  // 0: heights are solved for all visible points
   int threads = 1;
-  Series heights = {}, detail = {}, normals = {}, whole = {};  // t1, t2 and t3 of the paper, and all of it
+  Series heights = {}, detail = {}, normals = {}, whole = {};  // t1, t2, t3 of the paper; the whole frame
   double solves = 0;                                           // linear systems solved per frame
 };
 
 struct FrameRun {
   int threads = 1;
   int frames = 60;
-  bool is_locked = false;  // whether the height is locked
+  bool is_locked = false;  // whether the relief's height stays fixed
   bool is_ahead = false;   // whether FrameMaker::make_ahead() is used
 };
 
-// Makes frames as if a user dragged a slider: the saturation if the height is locked, otherwise the detail.
+// Makes frames as if a user dragged the saturation (with a locked height) or the detail, and measures them.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.
@@ -82,18 +82,18 @@ struct ViewRun {
 // The times of successive views of one kind.
 struct ViewSeries {
   Series time;
-  double early_mib = 0, late_mib = 0;  // after a tenth of the views, and after all views
+  double early_mib = 0, late_mib = 0;  // memory of the process after a tenth of the views, and after all
 };
 
 struct ViewFigures {
-  double first_ms = 0;         // from the points in memory to the first frame of the first view
-  double first_turned_ms = 0;  // from the first view to the first frame of a turned relief
+  double first_ms = 0;         // time from the points in memory to the first frame of the first view
+  double first_turned_ms = 0;  // time from the first view to the first frame of a turned relief
   ViewSeries turned;           // turned reliefs (see the glossary), with one frame each
   ViewSeries prepared;         // fully prepared views, with one frame each
 };
 
-// Opens the cloud in a session and turns it about the vertical axis. Errors: those of Session::turn() and of
-// the session's preparations.
+// Opens the cloud in a session, turns it about the vertical axis, and measures the views. Errors: those of
+// Session::turn() and of the session's preparations.
 Result<ViewFigures> measure_views(const ViewRun& run);
 
 void print_views(const ViewFigures& figures);

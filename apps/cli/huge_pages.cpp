@@ -11,10 +11,10 @@
 namespace relievo::app::cli {
 
 void restart_with_huge_pages(char** argv) {
-  if (::getauxval(AT_SECURE) != 0) return;  // a setuid program loses the variable and would restart for ever
+  if (::getauxval(AT_SECURE) != 0) return;  // setuid programs lose the variable: endless restarts
   constexpr const char *name = "GLIBC_TUNABLES", *request = "glibc.malloc.hugetlb=1";
   if (const char* const given = std::getenv(name)) {
-    if (given == std::string_view(request)) ::unsetenv(name);  // else child processes would inherit it
+    if (given == std::string_view(request)) ::unsetenv(name);  // so that child processes do not inherit it
     return;
   }
   std::error_code failed;

@@ -19,7 +19,7 @@
 namespace relievo::app::cli {
 namespace {
 
-// Geo-referenced coordinates need ten digits.
+// Returns the coordinates as text with ten digits, which geo-referenced coordinates need.
 std::string vector_text(const Vec3& v) {
   char text[96];
   std::snprintf(text, sizeof text, "%.10g, %.10g, %.10g", v.x(), v.y(), v.z());

@@ -19,7 +19,7 @@ bool is_printed() {
 
 int main(int argc, char** argv) {
   relievo::app::cli::restart_with_huge_pages(argv);
-  // Without memory for a request, the studio refuses that request and goes on.
+  // If the memory does not suffice for a request, the studio refuses the request and goes on. Other commands end.
   if (argc > 1 && argv[1] == std::string_view("studio"))
     relievo::app::keep_memory_in_reserve();
   else

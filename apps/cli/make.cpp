@@ -33,8 +33,8 @@ std::vector<std::string_view> output_endings() {
   return endings;
 }
 
-// Stores the path of --output: as that of the height map if it ends like a picture, which then needs no
-// solid, otherwise as that of the solid.
+// Stores the path of --output. If it has the ending of a picture, it is the path of the height map, and no solid
+// is needed. Otherwise it is the path of the solid.
 Result<void> take_output(MakeArguments& arguments) {
   const std::string& path = arguments.output;
   ReliefFiles& files = arguments.files;

@@ -21,7 +21,7 @@ iovec part(const char* text) {
   return {const_cast<char*>(text), std::strlen(text)};
 }
 
-// Must not allocate. If several threads fail at the same time, only the first one prints the line.
+// Ends the process. Must not allocate. If several threads fail at the same time, only the first one prints the line.
 void end_process() {
   static std::atomic_flag is_ending;
   while (is_ending.test_and_set()) ::pause();

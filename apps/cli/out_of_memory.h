@@ -3,9 +3,9 @@
 
 namespace relievo::app::cli {
 
-// From now on, if an allocation fails in any thread, the process removes its temporary files, prints one line
-// with the amount of memory in use, and exits with code 1. An exception could not do this: it ends at the
-// boundary of its thread.
+// After this call, if an allocation fails in any thread, the process removes its temporary files, prints one line
+// with the amount of memory in use, and exits with code 1. An exception could not do this, as it cannot pass from
+// one thread to another.
 void exit_when_out_of_memory();
 
 }  // namespace relievo::app::cli

@@ -14,7 +14,7 @@ struct ThumbnailArguments {
   int size_px = 256;
 };
 
-// Returns an order that is quick to make: it uses few points, and reads large clouds in blocks. A scan is
+// Returns an order for a relief that is made quickly, from few points. Large clouds are read in blocks. A scan is
 // seen from the side that suits a relief best; a project has its own view.
 MakeOrder quick_order(const std::string& input) {
   MakeOrder order;

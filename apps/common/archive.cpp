@@ -22,7 +22,7 @@ std::unexpected<Error> broken(std::string_view name, std::string expected) {
   return input_error(std::string(name), {}, std::move(expected));
 }
 
-// Returns the message about a file of the archive that libzip fails to unpack with that error code.
+// Returns the message for a file of the archive that libzip cannot unpack. `code` is libzip's error code.
 std::string not_unpacked(const zip_stat_t& file, int code) {
   if (file.encryption_method != ZIP_EM_NONE)
     return "expected a file without a password, found an encrypted one; unpack the archive first";
@@ -35,13 +35,13 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
-// Some programs separate folders by backslashes.
+// Replaces backslashes, by which some programs separate folders, by slashes.
 std::string with_slashes(std::string name) {
   std::ranges::replace(name, '\\', '/');
   return name;
 }
 
-// Returns the name of a file of the archive; empty if it has none that can be read.
+// Returns the name of a file of the archive; empty if the file has no readable name.
 const char* name_at(zip* archive, zip_uint64_t i) {
   const char* const name = zip_get_name(archive, i, 0);
   return name ? name : "";
@@ -140,7 +140,7 @@ Result<std::string> find_model(const std::vector<std::string>& names, std::strin
     return broken(archive, cat("expected an archive with a cloud or a mesh, found none in it",
                                other == names.end() ? "" : cat(", but ", *other, "; unpack it first")));
   }
-  // The other models of a 3MF are parts of its main one.
+  // In a 3MF file, the other models are parts of the main model.
   for (const std::string& model : models)
     if (model == "3D/3dmodel.model" || model == "3D/3DModel.model") return model;
   if (models.size() > 1)

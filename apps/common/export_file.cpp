@@ -80,7 +80,7 @@ Image8 preview_of(const MadeRelief& made, PreviewOptions options) {
     const double across = wrap->across.dot(p.head<2>());
     low = std::min(low, across), high = std::max(high, across);
   }
-  options.nearest_mm = (high - low) / 2;  // cuts at the wrap's axis: the farther half stays
+  options.nearest_mm = (high - low) / 2;  // cuts at the wrap's axis, and shows only the farther half
   return render_preview(made.solid, options);
 }
 

@@ -22,19 +22,18 @@ struct FileFormat {
   std::vector<std::byte> (*write_solid)(const Solid&) = nullptr;  // null for pictures
 };
 
-// Returns all formats.
 std::span<const FileFormat> file_formats();
 
-// Returns the format of that name, which is not null. Errors: kind option, naming all formats.
+// Returns the format of that name; the pointer is never null. Errors: kind option; the message lists all formats.
 Result<const FileFormat*> find_format(std::string_view name);
 
 // Returns the format of solids with that ending, such as "stl"; null if there is none.
 const FileFormat* find_solid_format(std::string_view ending);
 
-// Returns the endings of solids: ".stl" and others.
+// Returns the endings of the files of solids: ".stl" and others.
 std::vector<std::string_view> solid_endings();
 
-// Returns a list of objects with name, label, use, ending and type.
+// Returns all formats as a JSON list of objects with name, label, use, ending and type.
 nlohmann::json format_list();
 
 struct ExportedFile {

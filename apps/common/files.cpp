@@ -26,7 +26,7 @@ std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
   return input_error(path, {}, cat("expected a file, found ", kind_of(mode)));
 }
 
-// A file larger than half of the memory could be read, but no memory would be left to make a relief of it.
+// Returns the largest size of a file to read: half of the memory. The rest is needed to make a relief of it.
 std::size_t most_bytes() {
 #if defined(__wasi__)
   return std::size_t{1} << 31;
@@ -39,8 +39,8 @@ std::size_t most_bytes() {
 // Reads to the end of the file. For pipes and for files that grow, `size` is only a first guess.
 Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size, const std::string& path) {
   const std::size_t most = most_bytes();
-  // The buffer is one byte longer than the file. So the read that finds the end of the file needs no larger
-  // buffer.
+  // The buffer is one byte longer than the file, so that the last read, which finds the end of the file, does not
+  // have to enlarge the buffer.
   std::vector<std::byte> bytes(size > most ? 0 : std::max<std::size_t>(size + 1, 1 << 16));
   for (std::size_t filled = 0; size <= most && filled <= most;) {
     if (filled == bytes.size()) bytes.resize(bytes.size() * 2);

@@ -20,16 +20,16 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
 // Returns whether a file, a folder or a device has that path.
 bool is_there(const std::string& path);
 
-// Returns the path, continued from the folder if it is relative.
+// Returns the path if it is absolute; otherwise appends it to the folder.
 std::string path_in(const std::string& folder, const std::string& path);
 
-// Checks that no folder, device or pipe has that path. The path may also be missing. Errors: kind input.
+// Checks that the path is missing or is that of a regular file. Errors: kind input.
 Result<void> check_file(const std::string& path);
 
 // Returns the time of the last change of a file in ns since 1970; 0 for a missing file.
 std::int64_t time_of_change_ns(const std::string& path);
 
-// Returns the size of a file in bytes. Returns nothing if the path is missing, or is a folder or a device.
+// Returns the size of a regular file in bytes. Returns nothing for all other paths.
 std::optional<std::uint64_t> file_size(const std::string& path);
 
 // Returns the bytes of the text, as the content of a file.

@@ -41,7 +41,7 @@ Result<void> take_choice(const char* flag, const std::string& text, const std::a
   return {};
 }
 
-// Returns the scale of the map under the keys that the files use, too.
+// Returns the scale of the map. The keys are those under which the files store it.
 Scale scale_of(const HeightMap& map, const MadeRelief& made, LengthUnit unit) {
   Scale scale{{"mm_per_pixel", cat(map.mm_per_pixel)}, {"mm_per_grey", cat(map.mm_per_grey)}};
   if (unit == LengthUnit::inch) {

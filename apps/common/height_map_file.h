@@ -25,7 +25,7 @@ struct HeightMapFlag {
   std::string HeightMapTexts::*text;
 };
 
-// The flags of `make` and `batch`. The same names are used in the studio's requests.
+// The flags of `make` and `batch` for height maps. The studio's requests use the same names.
 inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
     {{"pixel", "MM", "exact size of the height map's pixels, in the place of heightmap-size",
       &HeightMapTexts::pixel},
@@ -39,15 +39,15 @@ inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
       &HeightMapTexts::high}}};
 
 struct HeightMapOrder : HeightMapOptions {
-  int bits = 0;          // per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
+  int bits = 0;          // bits per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
   bool is_tiff = false;  // false: PNG
   LengthUnit unit = LengthUnit::mm;
 
   int effective_bits() const { return bits != 0 ? bits : is_tiff ? 32 : 16; }
 };
 
-// Sets the options that the texts give. A length without a unit is in the unit of the order. Errors: kind
-// option; they name the flag.
+// Parses the texts and stores their values in the order. A length without a unit is in the unit of the order.
+// Errors: kind option; they name the flag.
 Result<void> take_texts(const HeightMapTexts& texts, HeightMapOrder& order);
 
 // Returns the texts that a JSON object has under the names of the flags. Errors: kind option if a value is

@@ -13,7 +13,7 @@ namespace relievo::app {
 
 namespace {
 
-// Returns the values of an order, and those of its project that the order does not give.
+// Returns the option values of an order, completed by those of its project.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
 }
@@ -68,7 +68,7 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
     if (loaded.options.points) loaded.input_arguments.depth.points = *loaded.options.points;
     const LoadOptions how{loaded.input_arguments, [&] { return progress.is_cancelled(); }};
     RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, how));
-    loaded.project->packed = nullptr;  // frees the bytes, which may be as large as the points
+    loaded.project->packed = nullptr;  // frees the file's bytes, which may take as much memory as the points
   } else {
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
@@ -97,7 +97,7 @@ void FinishedRelief::end(Progress& progress) {
 
 std::vector<std::string> FinishedRelief::remarks() const {
   std::vector<std::string> lines = inputs.remarks;
-  if (!kept_report.is_null()) return lines;  // a stored relief has all its remarks in `inputs`
+  if (!kept_report.is_null()) return lines;  // `inputs` has all remarks of a stored relief
   for (std::string& line : remarks_on(made.report)) lines.push_back(std::move(line));
   return lines;
 }

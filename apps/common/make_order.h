@@ -21,13 +21,13 @@ namespace relievo::app {
 // Describes a relief to make.
 struct MakeOrder {
   OptionValues values;                   // includes the options of depth images
-  InputArguments input_arguments;        // check_order() sets the fields that `values` has
+  InputArguments input_arguments;        // check_order() sets the fields for which `values` has options
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
   std::string scan_path = {};  // path of a project's scan
   std::shared_ptr<const Image<float>> base_image = nullptr;
-  // If set, this function reads the inputs instead of read_scene(): some inputs are not files. `name` is then
-  // the name of all inputs together.
+  // If set, this function is called instead of read_scene(), because some inputs are not files. `name` is then the
+  // name of all inputs together.
   std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
 };
@@ -36,7 +36,7 @@ struct MakeOrder {
 // and take_base_image().
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& project);
 
-// An order whose options are parsed, with its project if the input is one.
+// An order whose options are parsed, with its project if its input is a project.
 struct CheckedOrder : MakeOrder {
   std::optional<StoredProject> project;
   ReliefOptions options;
@@ -45,22 +45,21 @@ struct CheckedOrder : MakeOrder {
   std::vector<std::string> paths() const;
 };
 
-// Reads the project if the input is one, and parses the options. Errors: those of find_project() and
+// Reads the project if the input is a project, and parses the options. Errors: those of find_project() and
 // options_of().
 Result<CheckedOrder> check_order(MakeOrder order);
 
 // An order with its inputs read and its view chosen.
 struct LoadedOrder : CheckedOrder {
   Scene scene;
-  std::optional<ViewGuess> side;  // the chosen side, if the view was to be chosen automatically
+  std::optional<ViewGuess> side;  // the automatically chosen side; empty if the options set the view
 };
 
 // Reads the inputs and chooses the view. Errors: kind option if there is no input; those of
 // load_project_scan(), read_scene() and `read`.
 Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 
-// The facts about its inputs that the report of a relief states. The scans themselves are not needed any
-// more.
+// The facts about a relief's inputs that its report states. They are copies, so the scans can be freed.
 struct InputFacts {
   std::string name;
   std::vector<std::string> paths, remarks;  // paths: files that must not be overwritten
@@ -89,12 +88,12 @@ struct FinishedRelief {
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report. Its lengths are in millimetres; `unit`, the unit of the relief's files, is only
-  // stated in it.
+  // Returns the report. All its lengths are in millimetres. `unit` is the unit of the relief's files, which the
+  // report names.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 
-// Makes the relief; the caller must call end(). Errors: those of make_relief(), which name the inputs.
+// Makes the relief. The caller must then call end(). Errors: those of make_relief(); they also name the inputs.
 Result<FinishedRelief> make(LoadedOrder loaded, Progress& progress);
 
 // Calls check_order(), load() and make() in turn. Errors: those of the three functions.

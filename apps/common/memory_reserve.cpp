@@ -7,8 +7,8 @@
 namespace relievo::app {
 namespace {
 
-// The reserve has the size of a small allocation. So the allocator places it among other small ones, and can
-// reuse its memory as soon as it is freed.
+// The reserve is so small that the allocator places it among other small allocations, and can reuse its memory as
+// soon as it is freed.
 constexpr std::size_t reserve_bytes = 64U << 10;
 
 std::atomic<void*> reserve = nullptr;

@@ -1,5 +1,5 @@
-// Keeps a small reserve of memory for the moment when an allocation fails: the destructors of JSON values
-// allocate a few bytes, and an exception in a destructor would end the program.
+// Keeps a small reserve of memory for the moment when an allocation fails. Even then a few bytes are needed: the
+// destructors of JSON values allocate, and an exception in a destructor would end the program.
 #pragma once
 
 namespace relievo::app {

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Returns the default of a number: one value if it is the same for all methods but the baselines, otherwise
+// Returns the default of a number: one value if all methods except the baselines have the same default, otherwise
 // an object with one value per method.
 Json number_by_method(const OptionRow& option) {
   Json by_method = Json::object();
@@ -32,8 +32,8 @@ Json default_of(const OptionRow& option) {
   return std::visit([](const auto& value) { return Json(value); }, option.initial);
 }
 
-// Returns the defaults of a number that replace its usual default: the default for a form, under the form's
-// name, and the default for a given diameter, under "diameter".
+// Returns the defaults that replace the usual default of a number in special cases: the default for a form, under
+// the form's name, and the default if a diameter is given, under "diameter".
 Json other_defaults(const OptionRow& option) {
   Json others = Json::object();
   const ReliefOptions plain;

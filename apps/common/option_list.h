@@ -14,14 +14,14 @@ std::string default_text(const OptionRow& option);
 // Returns the help text, followed by the range of a number or by the words that the option accepts.
 std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and stage. Numbers also have min and max, and enumerations
-// have choices. If the option has a default, `default` is that value or, where it depends on the method, an
-// object from method names to values. `default_with` has the defaults that replace it: under a form's name
-// for that form, and under "diameter" for a given diameter. `in_studio` and `is_stated` are those of
-// OptionRow.
+// Returns a list of objects with name, unit, help and stage, one per option. Numbers also have min and max, and
+// enumerations have choices. `default` is the option's default or, where it depends on the method, an object that
+// maps methods to values; it is missing if there is no default. `default_with` has the defaults that replace it:
+// under the name of a form for that form, and under "diameter" if a diameter is given. `in_studio` and `is_stated`
+// are those of OptionRow.
 nlohmann::json option_list();
 
-// Returns the name of an option as a parameter of a function, with its unit: "height_mm".
+// Returns an option's name in the form of a function parameter, which includes the unit: "height_mm".
 std::string keyword_of(const OptionRow& option);
 
 // Returns the rows of option_list(), each with its keyword_of() and default_text().

@@ -33,8 +33,8 @@ Result<void> set(T& to, Result<T> from) {
   return {};
 }
 
-// A font that was read, as long as options have it. Options are equal only if their fonts are the same
-// object, and successive pictures have to have equal options.
+// A cached font, which exists as long as any options refer to it. Options that name the same file must share one font
+// object: options are equal only if their font objects are the same, and successive pictures must have equal options.
 struct KnownFont {
   std::int64_t changed_ns;
   std::weak_ptr<const FontFile> font;
@@ -188,7 +188,7 @@ void change_ornament_paths(std::string* font, std::string* ornaments,
   }
   auto json = nlohmann::ordered_json::parse(*ornaments, nullptr, false);
   auto* const list = list_in(json);
-  if (!list) return;  // reading it says what it expected
+  if (!list) return;  // parse_ornaments() will report this error
   bool is_changed = false;
   for (auto& ornament : *list)
     for (const char* const key : {"font", "file"})

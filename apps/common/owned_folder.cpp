@@ -27,8 +27,8 @@ fs::path mark_in(const std::string& folder) {
   return fs::path(folder) / mark_name;
 }
 
-// Reads the mark of a folder. Returns owned if it names that owner, of_others if it does not or if there is
-// no mark, and unusable if it cannot be read.
+// Reads the mark of a folder. Returns owned if the mark names that owner, of_others if it names another one or is
+// missing, and unusable if it cannot be read.
 Ownership read_mark(const std::string& folder, std::string_view owner) {
   std::error_code ignored;
   const fs::path mark = mark_in(folder);

@@ -17,7 +17,7 @@ struct FrameInMm {
   double mm_per_unit = 1;
 };
 
-// Every method may be called from any thread.
+// A model that is prepared once for many frames and reliefs. Every method may be called from any thread.
 class PreparedModel {
  public:
   // Reads the inputs of an order and prepares a model from them. Errors: those of check_order(), load() and
@@ -26,14 +26,14 @@ class PreparedModel {
 
   const ReliefModel& model() const { return live_.model(); }
 
-  // Errors: those of options_of() and make_relief().
+  // Makes a finished relief with the options of the order. Errors: those of options_of() and make_relief().
   Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
 
-  // Errors: those of options_of(); kind option for a method that has no frames.
+  // Makes a frame with the order's options. Errors: those of options_of(); kind option for a method without frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
-  // Draws a frame of this model in that material. Errors: kind input for a frame of another model, kind
-  // option.
+  // Draws a frame of this model in that material. Errors: kind input for a frame with another number of points,
+  // kind option for wrong options or an unknown material.
   Result<Picture> picture(const FrameInMm& shown, RenderOptions options, std::string_view material);
 
  private:

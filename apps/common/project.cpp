@@ -62,8 +62,8 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  // A project and an order may give the height by different options. Their names all begin with "height", and
-  // only the order's one stays.
+  // Several options set the height; their names begin with "height". If the order has one of them, those of the
+  // project are removed.
   const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
   if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method
   if (given.contains("alpha") || std::ranges::any_of(given, is_height)) std::erase_if(own, is_height);

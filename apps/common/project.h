@@ -33,38 +33,38 @@ struct Project {
   Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
 };
 
-// Returns the project in the bytes of its file. Error messages call it `name`. An unknown option is an error
-// and not ignored; parse_options() checks the values. Other entries of the file belong to the studio. Errors:
+// Parses the text of a project file. Error messages call the file `name`. An unknown option is an error;
+// parse_options() later checks the values. Other entries of the file belong to the studio and are ignored. Errors:
 // kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options of a project, `own`, replaced where the user has given others. If `given` has alpha,
-// the project's height and method are removed.
+// Returns the options `own` of a project, overridden by the options `given` by the user. If `given` has alpha, the
+// height and the method of the project are dropped.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
-// Returns the values of all options that have one: the given value, or else the default.
+// Returns an object with the value of each option that has a given value or a default.
 nlohmann::json to_json(const OptionValues& options);
 
 // Returns the value of a JSON number or text; nothing for other types.
 std::optional<OptionValue> value_from_json(const nlohmann::json& json);
 
-// Returns the options in an object that to_json() made, except those that have their default. Errors: kind
-// input for a name that is not in the table and for a value of another type; messages call the object `name`.
+// Returns the options in an object that to_json() made, except those that have their default value. Messages call
+// the object `name`. Errors: kind input for a name that is not in the table and for a value of a wrong type.
 Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
-// Returns the parsed options of an object that to_json() made. Also reads the height map at its path
-// "base-image", and the fonts and the list of ornaments. Errors: those of values_from_json(), parse_options(),
-// parse_depth(), read_base_image(), take_base_image() and read_ornaments().
+// Returns the parsed options of an object that to_json() made. Also reads the files that they name: the height map
+// of a base at the path "base-image", the fonts, and the list of ornaments. Errors: those of values_from_json(),
+// parse_options(), parse_depth(), read_base_image(), take_base_image() and read_ornaments().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
-// Returns the same options without the fonts and the list of ornaments, which read_ornaments() reads. Errors:
-// those of options_from_json() except for those of read_ornaments().
+// Does the same as options_from_json(), but does not read the fonts and the list of ornaments. Errors: those of
+// options_from_json() except for those of read_ornaments().
 Result<ReliefOptions> options_without_ornament_files(const nlohmann::json& json, std::string_view name);
 
-// Returns the path "base-image" of an object with options; empty if it has none.
+// Returns the path under the key "base-image" of an object with options; empty if it has none.
 std::string base_image_path_in(const nlohmann::json& options);
 
-// Returns whether both name the same sample or the same file. Hashes are not compared.
+// Returns whether both sources are the same sample or the same file. Hashes are not compared.
 bool is_same(const ScanSource& a, const ScanSource& b);
 
 nlohmann::json to_json(const ScanSource& input);
@@ -96,8 +96,8 @@ Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, con
                         const LoadOptions& options);
 
 // Returns the model of the input, or the models of a scene file. Sets the input's hash if it has none. A
-// relative path starts at `folder`. Errors: kind input, also if the file's hash is not the input's; kind
-// option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+// relative path starts at `folder`. Errors: kind input, also if the file's hash differs from the input's hash;
+// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
 Result<Scene> load_input(ScanSource& input, const std::string& folder, const LoadOptions& options);
 
 }  // namespace relievo::app

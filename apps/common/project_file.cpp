@@ -15,7 +15,7 @@ namespace {
 constexpr const char* project_name = "project.json";
 constexpr const char *scan_folder = "scan/", *base_folder = "base/", *ornament_folder = "ornaments/";
 
-// Returns the file of the archive that is in that folder; null if there is none. The folder has at most one.
+// Returns the file in that folder of the archive; null if there is none. The folder has at most one file.
 Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::string_view folder) {
   for (const std::string& entry : archive.names()) {
     if (!entry.starts_with(folder)) continue;
@@ -37,8 +37,8 @@ Result<std::shared_ptr<const Image<float>>> read_base_image_of(const Project& pr
   return std::make_shared<const Image<float>>(std::move(image.values));
 }
 
-// Checks that the files are fonts and drawings, so that a project that names another file of the user's does not
-// take it along when it is saved.
+// Checks that the files are fonts and drawings. Otherwise a malicious project could name any file of the user, and
+// saving the project would pack that file into it.
 Result<void> check_packed(const std::string* font, const std::string* ornaments, const OrnamentFiles& files) {
   ReliefOptions options;
   if (font) options.font_name = *font;

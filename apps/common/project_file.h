@@ -46,8 +46,8 @@ struct StoredProject {
   Project project;
   std::string folder;                        // folder of the project's file
   std::shared_ptr<const PackedFile> packed;  // null unless the file contains the scan
-  std::string located;                       // path of the scan if the user gives another one; may be empty
-  OrnamentFiles ornaments = {};              // those of the project's file
+  std::string located;                       // path that the user gives for the scan; empty if not given
+  OrnamentFiles ornaments = {};              // the fonts and drawings in the project's file
 };
 
 // Returns the project if the inputs are a single project file; nothing otherwise. `located` becomes
@@ -57,7 +57,7 @@ Result<std::optional<StoredProject>> find_project(const std::vector<std::string>
                                                   const std::string& located);
 
 // Returns the height map in the file at the given path. If no path is given and the base is an image, returns
-// the project's height map. Null if there is none. Errors: those of read_base_image().
+// the project's height map, or null if the project has none. Errors: those of read_base_image().
 Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& base,
                                                            const std::string& given_path,
                                                            const std::optional<Project>& project);

@@ -38,14 +38,14 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
-// Returns the default meaning of the values: heights in formats of terrain, depths in all others.
+// Returns what the values of a depth image mean by default: heights in formats for terrain, depths in all others.
 DepthValues usual_values(const DepthImage& image) {
   const bool has_heights = image.pixel_size.x() > 0 || image.format.starts_with("table of heights");
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
-// Reads a picture. If the option leaves the meaning of the values open, sets it to luminance for a picture in
-// colours and to usual_values() for all others.
+// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured picture
+// and to usual_values() for all others.
 Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
                                DepthOptions& options) {
   const auto read = [&](bool is_luminance_wanted) {
@@ -91,7 +91,7 @@ class FileSource : public ByteSource {
 };
 
 // Returns the size of the file in bytes if it is so large that it may have to be read in blocks; nothing for
-// smaller files. The bound of points is compared with bytes, as a point has at least one byte.
+// smaller files. The largest number of points is compared with the bytes, as each point has at least one byte.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
   const double most = std::min(1e6 * arguments.stream_above_mb, arguments.most_points);
@@ -99,7 +99,7 @@ std::optional<std::uint64_t> large_size(const std::string& path, const InputArgu
   return size;
 }
 
-// Returns whether the file that begins with `head` is a cloud of too many points to be read at once.
+// Returns whether the file that begins with `head` is a cloud with more points than can be read at once.
 bool has_too_many_points(std::span<const std::byte> head, const std::string& path, std::uint64_t bytes,
                          double most_points) {
   const ScanSize size = scan_size(head, path, bytes);
@@ -234,7 +234,7 @@ Result<void> take_text_of_file(std::string_view option, const std::string& folde
   std::string* const text = found == values.end() ? nullptr : std::get_if<std::string>(&found->second);
   if (!text || text->empty()) return {};
   const std::string path = path_in(folder, *text);
-  if (!is_there(path)) return {};  // reading the option says what it expected
+  if (!is_there(path)) return {};  // parsing the option will report the error
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
   *text = text_in(bytes);
   return {};

@@ -28,13 +28,13 @@ struct InputArguments {
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
   bool keeps_doubtful = false;   // see ReadOptions
   bool is_lithophane = false;    // the brightness of a picture then becomes thickness instead of height
-  // A cloud without triangles that has more points than this is read in blocks, too.
+  // Files with more points than this and without triangles are read in blocks, too.
   double most_points = most_points_at_once;
 
   bool operator==(const InputArguments&) const = default;
 };
 
-// The view of the scene, and the number of points to keep of a file that has more than are needed.
+// The view of the scene, and the number of points to keep of a file that has more.
 struct PointsWanted {
   View view;
   double points = MeshSampling{}.points;
@@ -46,8 +46,8 @@ struct UnpackedFile {
   std::string name;  // "a.npz/points.npy"
 };
 
-// Returns the array that find_array() chooses of an archive that is called NPZ or has arrays alone. Returns
-// nothing for any other file.
+// If the bytes are an archive whose name ends in .npz or that contains only NumPy arrays, returns the array that
+// find_array() chooses. Returns nothing for any other file.
 Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> bytes, const std::string& path);
 
 // Reads the bytes of a cloud or mesh as read_cloud() does. Also reads the files in the folder of `path` to
@@ -56,8 +56,8 @@ Result<std::optional<UnpackedFile>> unpack_array(std::span<const std::byte> byte
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path,
                                 bool keeps_doubtful = false);
 
-// Replaces the value of an option that names a file, such as `camera`, by the file's text. A relative path starts at
-// the folder. A value that names no file stays as it is. Errors: kind input if the file is there and cannot be read.
+// If the value of an option such as `camera` is the path of a file, replaces it by the file's text. A relative path
+// starts at the folder. Any other value stays as it is. Errors: kind input if the file exists but cannot be read.
 Result<void> take_text_of_file(std::string_view option, const std::string& folder, OptionValues& values);
 
 // Returns the points of a depth image. Errors and remarks call it `name`. Errors: those of depth_cloud().
@@ -68,7 +68,6 @@ Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
 Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Returns the remarks of all models.
 std::vector<std::string> remarks_of(const Scene& scene);
 
 // Returns whether the path ends in .json, as those of scene files do.
@@ -112,19 +111,18 @@ Result<std::vector<Ornament>> parse_ornaments(std::string_view text, const std::
 // Returns whether the value of `ornaments` is JSON itself, an object or a list, and not a path.
 bool is_ornament_json(std::string_view value);
 
-// Replaces the path of each font and each drawing by what `change` returns for it. `ornaments` is the value
-// of that option, whose list may itself be in a file, and `font` that of the other option. Either may be
-// null.
+// Replaces the path of each font and each drawing by the result of change(path). `font` and `ornaments` are the
+// values of these options; either may be null. If `ornaments` is the path of a list, that path is replaced.
 void change_ornament_paths(std::string* font, std::string* ornaments,
                            const std::function<std::string(const std::string&)>& change);
 
-// Does so with the values of both options.
+// Calls the function above with the values of `font` and `ornaments` in `options`.
 void change_ornament_paths(OptionValues& options,
                            const std::function<std::string(const std::string&)>& change);
 
-// Reads the files that the options `font` and `ornaments` name, from `inside` if they are there. A font that
-// another object still has is not read again, unless its file has changed. Errors: those of read_file() and
-// parse_ornaments().
+// Reads the files that the options `font` and `ornaments` name. A file that `inside` contains is taken from there. A
+// font that other options still refer to is not read again, unless its file has changed. Errors: those of
+// read_file() and parse_ornaments().
 Result<void> read_ornaments(ReliefOptions& options, const OrnamentFiles& inside = {});
 
 }  // namespace relievo::app

@@ -78,7 +78,7 @@ OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief,
                        const nlohmann::json& height_map) {
   nlohmann::json report = relief.report(files.unit);
   if (!height_map.is_null()) report["height_map"] = height_map;
-  // A file's name need not be UTF-8, but JSON must be.
+  // JSON must be UTF-8, but names of files need not be: their other bytes are replaced.
   const auto replace = nlohmann::json::error_handler_t::replace;
   return {files.report, bytes_of(report.dump(2, ' ', false, replace) + "\n")};
 }

@@ -24,8 +24,8 @@ struct ReliefFiles {
 };
 
 // Checks, before the work begins, that the outputs have different paths and that each can be written. Errors:
-// those of check_output() and take_texts(); kind option for a picture of the tool without a tool, and for
-// options of a height map without a height map.
+// those of check_output() and take_texts(); kind option if a picture of the tool is wanted without a tool, or if
+// options of a height map are given without a height map.
 Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
 
 struct MadeFiles {

@@ -12,7 +12,7 @@
 namespace relievo::app {
 namespace {
 
-using StageName = std::pair<std::string_view, std::string_view>;  // of the library, and for users
+using StageName = std::pair<std::string_view, std::string_view>;  // the library's name, the users' name
 
 constexpr StageName stage_names[] = {
     {"waiting", "Getting ready"},

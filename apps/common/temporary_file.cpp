@@ -57,7 +57,7 @@ class FileChange {
     ::sigemptyset(&signals);
     for (const int signal : ending_signals) ::sigaddset(&signals, signal);
     ::pthread_sigmask(SIG_BLOCK, &signals,
-                      &former_);  // else a handler would wait for its own thread for ever
+                      &former_);  // a handler in this thread would wait for this thread for ever
     ++threads_with_change;
     if (!is_ending) return;
     --threads_with_change;
@@ -96,11 +96,11 @@ std::string folder_for(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Stands in the names of temporary files, between the name of the file and two numbers.
+// The name of a temporary file consists of the name of the final file, this text, and two numbers.
 constexpr std::string_view before_numbers = ".relievo-";
 
-// Returns the beginning of the names of temporary files for that path; numbers follow it. It is cut to the
-// length that file systems allow.
+// Returns the part of a temporary file's path that precedes the two numbers. The file's name is cut so that the
+// whole name has a length that file systems allow.
 std::string stem_for(const std::string& path) {
   constexpr std::size_t most =
       NAME_MAX - before_numbers.size() - 1 - 2 * 10;  // two numbers of ten digits each follow
@@ -112,7 +112,7 @@ std::string own_path(const Descriptor& file) {
   return "/proc/self/fd/" + std::to_string(file.number());
 }
 
-// Makes a file without a name, or none if the file system cannot give it a name later.
+// Makes a file without a name. Returns a closed descriptor if the file system could not give it a name later.
 Descriptor make_nameless(const std::string& folder, unsigned mode) {
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
@@ -172,7 +172,7 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange change;  // allocates nothing: a failed allocation would wait for FileChange
+    const FileChange change;  // no allocation from here on: the handler of a failed one waits for FileChange
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;

@@ -12,11 +12,11 @@ namespace relievo::app {
 struct TemporaryName;
 
 // A new file in the folder of `path`. keep() moves the file to its final path; without keep() the destructor
-// removes it. Until keep() the file has no name, so that even a crash leaves nothing of it. The file has a
-// unique temporary name only while it replaces another file, and from the beginning if the file system does
-// not support files without names. remove_temporary_files() removes the files with such names. If a killed
-// process left one, the next TemporaryFile for the same path removes it. The program recognises such files by
-// an attribute, never by the name alone.
+// removes it. Until keep() the file has no name, so that even a crash leaves nothing of it. In two cases the file has
+// a unique temporary name: while it replaces another file, and on file systems that do not support files without
+// names. remove_temporary_files() removes the files with temporary names. If a killed process left one, the next
+// TemporaryFile for the same path removes it. The program recognises these files by an attribute, never by the name
+// alone.
 class TemporaryFile {
  public:
   // Makes the file with the permissions `mode`, reduced by the process's umask.
@@ -41,8 +41,7 @@ class TemporaryFile {
   TemporaryName* name_ = nullptr;  // null while the file has no temporary name
 };
 
-// Removes the unfinished files in a folder that were left by killed processes or by a power failure, whatever
-// path they were meant for.
+// Removes all unfinished files in a folder that killed processes or a power failure left there.
 void remove_abandoned_files(const std::string& folder);
 
 // Removes the named temporary files of this process. After this call no thread can make or keep a temporary

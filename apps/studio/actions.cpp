@@ -25,7 +25,7 @@ bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
-// Fails if a scan's path is that of a device or a folder. Accepts a missing file.
+// Returns an error if a scan's path is that of a device or a folder. Accepts a missing file.
 Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }
@@ -98,7 +98,7 @@ Result<Json> Actions::kept_state(const std::string& id) const {
   return state.is_object() ? state : Json();
 }
 
-// Returns the time of the last change in the stored state of a document. The caller has locked `storing_`.
+// Returns the time at which the newest known state of a document was changed. The caller has locked `storing_`.
 Result<double> Actions::time_of_newest(const std::string& id) {
   const std::optional<double> known = opened_.with([&](const std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
@@ -194,8 +194,8 @@ Result<Answer> Actions::recent(const Json& json) {
   return answer_of(Json{{"recent", recent_list(after)}});
 }
 
-// Returns the list of Store::recent(), preceded by the documents that are being opened: those are stored only
-// after their scan was read. The caller has locked `storing_`.
+// Returns the list of Store::recent(), preceded by the documents that are being opened, which are stored only after
+// their scan was read. The caller has locked `storing_`.
 Json Actions::recent_list(const std::string& after) {
   Json list = Json::array();
   const auto opened = opened_.with([](const auto& all) { return all; });
@@ -286,9 +286,9 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
   return store_.keep(*scan);
 }
 
-// Stores the fonts and drawings that were packed in a project. Replaces the paths of such files, in the options and
-// in those of snapshots, by those of stored files, which are found by their hash, too; other relative paths then
-// start at `folder`.
+// Stores the fonts and drawings that were packed in a project. Then replaces the paths of fonts and drawings in the
+// project's options and in the options of its snapshots: a file whose hash shows that it is stored gets the path of the
+// stored copy; any other relative path starts at `folder`.
 Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder, Json& project) {
   for (const auto& [name, bytes] : inside) RELIEVO_CHECK(kept({name, bytes}));
   const auto place = [&](const std::string& name) {

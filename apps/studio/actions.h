@@ -1,4 +1,4 @@
-// Performs the actions that the page requests. Takes and returns JSON. Tested by
+// Performs the actions that the studio's page requests. Requests and results are JSON. Tested by
 // apps/studio/tests/server.test.mjs.
 #pragma once
 
@@ -23,13 +23,13 @@ constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // largest file tha
 // `take` accepted all of it.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
 
-// Performs an action on the engine of the document that the request names.
+// A function that performs an action on the engine of the document that the request names.
 using EngineAction = Result<Answer> (*)(Engine&, const nlohmann::json&);
 
 // Returns the action of that name; null if there is none.
 EngineAction find_engine_action(std::string_view name);
 
-// Every method may be called from any thread.
+// The actions of the studio's server. Every method may be called from any thread.
 class Actions {
  public:
   Actions(OpenDocuments& documents, Store& store);
@@ -39,8 +39,8 @@ class Actions {
   // Performs the action of that name, for which has() must return true.
   Answer run(std::string_view name, const nlohmann::json& json);
 
-  // Takes a file that the browser sends in blocks: a scan, or a project file with or without its scan. If the
-  // body does not arrive completely, the answer is empty.
+  // Receive a file that the browser sends in blocks: a scan, or a project file with or without its scan. If the body
+  // does not arrive completely, the answer is empty.
   Answer take_scan(const std::string& name, const BodyReader& read);
   Answer take_project(const std::string& name, const BodyReader& read);
 
@@ -94,10 +94,9 @@ class Actions {
 
   OpenDocuments& documents_;
   Store& store_;
-  Mutex storing_;         // guards store_ and first_; disk operations may lock it for long
+  Mutex storing_;         // guards store_ and first_; it stays locked while the disk works
   nlohmann::json first_;  // the input that the first page opens, or null
-  // The open documents by their ids. A thread locks them only briefly, and may do so while it has locked
-  // storing_.
+  // The open documents by their ids. They are locked only briefly. A thread that has locked storing_ may lock them.
   Guarded<std::map<std::string, Opened>> opened_;
 };
 

@@ -9,7 +9,7 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr int most_wait_ms = 10000;  // most pages need only milliseconds
+constexpr int most_wait_ms = 10000;  // time limit of one read or write; pages need only milliseconds
 constexpr std::size_t piece =
     1U << 16;  // httplib asks for 4 KiB at a time, so large uploads would need many calls
 

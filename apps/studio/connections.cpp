@@ -34,7 +34,7 @@ constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // time from the first byte of a head to its last
 constexpr auto longest_rest = 30s;            // time between two requests on a connection
 constexpr auto longest_farewell = 2s;         // time in which a refused sender can read the answer
-constexpr auto shortest_wait = 1s;            // a connection that waits longer may be closed for another
+constexpr auto shortest_wait = 1s;            // a connection that waits longer may be closed to admit another
 
 // A connection that no thread is answering.
 struct Connection {

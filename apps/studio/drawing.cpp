@@ -66,8 +66,8 @@ double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
-// Returns whether FrameRenderer can draw the piece of the options while only its heights change, without ornaments and
-// without what takes long: draft, simplification, and the reach of a tool.
+// Returns whether FrameRenderer can draw the piece while only its heights change. It leaves out ornaments and what
+// takes long to compute: the draft angle, the simplification, and the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
   const bool is_flat = options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
   return (is_flat || options.outline != Outline::none) && options.form != Form::lithophane &&
@@ -92,7 +92,7 @@ ReliefOptions coarse(ReliefOptions options) {
   return options;
 }
 
-// Returns whether the thickness of a coarse piece is exact: the thickness of the plate plus the height of the
+// Returns whether the thickness of the piece, coarse or finished, is exactly that of the plate plus the height of the
 // relief.
 bool is_level(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
@@ -141,7 +141,7 @@ LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   return made;
 }
 
-// Returns two corners of the relief's bounding box, relative to the centre of the piece.
+// Returns the lower left and upper right corner of the relief's bounding box, relative to the centre of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
   if (options.wrap.kind != WrapKind::none) return std::nullopt;
@@ -197,7 +197,7 @@ void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& 
 Result<DrawnPiece*> Drawing::piece(const ReliefOptions& options) {
   if (is_finished(options)) return &*finished_;
   const ReliefOptions bare =
-      without_ornaments(options);  // these take longer than a hand that waits for a frame
+      without_ornaments(options);  // making ornaments takes too long while a user drags a slider
   if (coarse_ && coarse_->options == bare) return &*coarse_;
   RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(bare)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
@@ -211,7 +211,7 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                                  const LiveFrame& made, PictureAnswer& answer) {
   const Vec2 half = facts_.size * render.mm_per_unit / 2;
   if (!is_plain(request.options)) {
-    // A draft may limit the height, and heights out of reach are rounded down.
+    // The draft angle may limit the height, and a height that is out of reach is rounded down, so the frame is scaled.
     LiveFrame limited = made;
     const double unstretched = made.frame->height * made.mm_per_unit;
     if (unstretched > 0) limited.stretch = answer.height_mm / unstretched;
@@ -317,7 +317,7 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (is_plain(request.options)) return along(live_.shown(made));
   const ReliefOptions wanted = piece_options(request, made);
   RELIEVO_TRY(const DrawnPiece* const shown, piece(wanted));
-  // Making a coarse piece does not check the rim.
+  // Making a coarse piece does not check the rim, so the rim is checked here.
   RELIEVO_CHECK(check_rim(wanted, shown->height_mm.value_or(height_of(request, made).mm)));
   return section_of(*shown->solid, line);
 }

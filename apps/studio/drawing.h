@@ -16,7 +16,7 @@
 
 namespace relievo::app::studio {
 
-// Facts about a model that do not change while the page shows it.
+// Facts about a model, which stay the same while the page shows that model.
 struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
@@ -36,7 +36,7 @@ struct CurveSamples {
   static constexpr std::size_t size = 81;
 
   std::vector<double> share;  // the fraction that the saturation or the tone curve sets
-  std::vector<double> kept;   // the fraction in the relief of this height; `share` in the layered style
+  std::vector<double> kept;   // the fraction in a relief of this height; equals `share` in the layered style
 };
 
 struct PictureRequest {
@@ -47,37 +47,37 @@ struct PictureRequest {
   std::optional<double> u;      // strength of the compression; empty if the height is given
   bool is_original = false;     // draw the model itself instead of its relief
   bool is_finished = false;     // draw the piece exactly as it is exported
-  bool has_attention = false;   // colour the model itself by its attention
-  bool is_drawn_apart = false;  // leave out the drawing of a frame, see PictureAnswer::undrawn
-  std::optional<Error> ornament_error = {};       // why the ornaments of the options were left out
-  RenderOptions render;                           // lengths in it are overwritten by those of the options
+  bool has_attention = false;   // colour the model itself by its attention, see attention()
+  bool is_drawn_apart = false;  // return a frame without drawing it, see PictureAnswer::undrawn
+  std::optional<Error> ornament_error = {};       // the reason why the ornaments were left out
+  RenderOptions render;                           // its lengths are replaced by those of `options`
   std::shared_ptr<const Progress> progress = {};  // null if the picture cannot be cancelled
 };
 
 // A frame that a FrameRenderer of the model can draw. The arrays of `shown` are valid until the next picture.
 struct UndrawnFrame {
   std::shared_ptr<const ReliefModel> model;
-  std::size_t number = 0;  // how many frames of the model have been made; the same for the same heights
+  std::size_t number = 0;  // counts the model's frames; equal numbers mean equal heights
   Shown shown;
   RenderOptions render;
 };
 
 struct PictureAnswer {
   Picture picture;
-  std::optional<UndrawnFrame> undrawn;  // replaces the picture of a frame that is drawn apart
+  std::optional<UndrawnFrame> undrawn;  // set instead of `picture` if the frame is drawn elsewhere
   bool is_finished = false;             // the picture shows the piece as it is exported, or the model itself
   bool is_plain = false;                // the piece is a relief on a rectangular plate without ornaments
   bool has_ornaments = false;           // whether the picture shows the ornaments of the options
-  std::optional<Error> ornament_error = {};  // that of the request
+  std::optional<Error> ornament_error = {};  // copied from the request
   double drawing_s = 0;
   double width_mm = 0;                  // the longer side of the relief
   Vec3 size_mm = Vec3::Zero();          // the size of the piece
   bool is_size_exact = false;           // whether the exported piece has exactly this size
   std::optional<double> most_width_mm;  // largest width_mm with which the relief fits the plate
   std::optional<std::array<Vec2, 2>>
-      relief_mm;  // two corners of the relief's box, relative to the piece's centre; empty if it is bent
+      relief_mm;  // two opposite corners of the relief's box, from the piece's centre; empty if it is bent
 
-  // The share of the front's area that the tool can reach, and the greatest depth of material that it leaves.
+  // The share of the front's area that the milling tool can reach, and the greatest depth of material that it leaves.
   struct Reach {
     double share = 1, left_mm = 0;
   };
@@ -85,7 +85,7 @@ struct PictureAnswer {
 
   // The members below describe how the relief was made. In a picture of the model itself they have their
   // defaults.
-  Compression compression;      // as found by the engine
+  Compression compression;      // the compression that the engine found
   double height_mm = 0;         // the height option with which the file is made
   double relief_height_mm = 0;  // height of the relief in the file; lower if the tool leaves material
   bool is_height_met = true;
@@ -109,33 +109,34 @@ struct PieceHeight {
   bool is_met = true;
 };
 
-// Leaves out the ornaments of a request if the error of its piece is theirs. Returns whether it did.
+// If ornaments caused the error, removes them from the request and stores the error in it. Returns whether it did.
 bool leave_out_ornaments(PictureRequest& request, const Error& error);
 
-// Reads the files of the request's ornaments. If one cannot be read, takes the ornaments out of the request
-// and keeps the error in it.
+// Reads the files of the request's ornaments. If one cannot be read, removes the ornaments from the request and
+// stores the error in it.
 void read_ornaments_of(PictureRequest& request);
 
-// Not for concurrent use.
+// Draws one model. Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. If the model has fewer points than the scan, `shown` also has the detail that these
-  // points cannot represent. `outliers` is the number of outliers that were left out of the scan; `remarks`
+  // Shares ownership of the model. If the model has fewer points than the scan, `shown` also has the detail that
+  // these points cannot represent. `outliers` is the number of outliers that were left out of the scan; `remarks`
   // are the other remarks on the scan.
   Drawing(ShownModel shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
 
-  // While frozen, the last frame, if there is one, is shown instead of the requested frame.
+  // While the drawing is frozen, it shows the last frame, if there is one, instead of the requested frame.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws the model itself if the request asks for it, otherwise the relief or its piece. If the options ask
-  // for a plate with ground on a plane base, without a draft angle, simplification or a tool, draws a frame:
-  // its height is exact in fine pictures, and within 3 % of the requested height in others. A plate that is
-  // no plain rectangle, or a request for the finished piece, shows that piece instead if take() has received
-  // it. For other options always draws a piece of exactly the requested height: the finished piece if take()
-  // has received it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no
-  // draft angle or tool. Only the finished piece has ornaments. Errors: those of make_relief().
+  // Draws the model itself if the request asks for it, otherwise the relief or its piece.
+  // If the options ask for a plate with ground on a plane base, without a draft angle, simplification or a tool,
+  // draws a frame. Its height is exact in fine pictures, and within 3 % of the requested height in others. If take()
+  // has received the finished piece, that piece is drawn instead for plates other than plain rectangles and for
+  // requests for the finished piece.
+  // For other options always draws a piece of exactly the requested height: the finished piece if take() has received
+  // it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no draft angle or tool.
+  // Only the finished piece has ornaments. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the picture of this request needs; nothing if take() has received

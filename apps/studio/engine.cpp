@@ -53,8 +53,8 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  // Lock order: the session calls Preparation::ready while it is locked, and ready locks `shared`. So a thread
-  // that has locked `shared` must not call the session.
+  // Lock order: the session calls Preparation::ready while its own mutex is locked, and ready() locks `shared`. So a
+  // thread that has locked `shared` must not call the session.
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>>
@@ -73,7 +73,7 @@ struct Engine::State {
 
   Session session;  // declared last: its thread uses the members above
 
-  // Returns how to prepare the scan that was requested last in the view of the options.
+  // Returns the description of the next preparation: the scan that was requested last, in the view of the options.
   Preparation preparation_of(const ReliefOptions& options) {
     Preparation preparation;
     const auto chosen = std::make_shared<View>(options.effective_view());
@@ -84,7 +84,7 @@ struct Engine::State {
     preparation.all_sides = [this](Progress&) -> Preparation::Points {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
-    preparation.makes_first_relief = !changed;  // without threads no picture is requested meanwhile
+    preparation.makes_first_relief = !changed;  // without threads no picture of it could be requested
     preparation.model = options.effective_model();
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
@@ -115,7 +115,7 @@ struct Engine::State {
     const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
     Result<LoadedScan> scan = read_scan(*unread, is_unwanted);
     const bool is_wanted = shared.with([&](Shared& s) {
-      if (s.unread != unread) return false;  // meanwhile, another scan was opened or this one cancelled
+      if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one was cancelled
       s.unread = nullptr;
       if (scan) s.scan = std::move(*scan);
       return true;
@@ -128,8 +128,7 @@ struct Engine::State {
     return shared.with([](const Shared& s) { return NumberedModel(s.shown); });
   }
 
-  // Returns the scan that was read last. If no relief could be made of it, returns the scan that the page
-  // shows.
+  // Returns the scan that was read last or, if no relief could be made of it, the scan that the page shows.
   LoadedScan scan_in_use() {
     const SessionStatus status = session.status();
     const bool has_failed = !status.is_preparing && status.error;
@@ -143,7 +142,7 @@ struct Engine::State {
   // used until the view is prepared, even if options change. While it is made, other pictures can be drawn.
   // A request for another view cancels it.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
-    std::uint64_t model = 0;  // the drawn model when the turned relief was begun
+    std::uint64_t model = 0;  // number of the model that was shown when the turned relief was begun
     for (std::optional<ShownModel> relief;;) {
       {
         const Lock lock(drawing_mutex);
@@ -194,7 +193,7 @@ Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<S
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const OptionValues& view) {
-  // If the view's options are wrong, the next picture reports it.
+  // If the view's options are wrong, the next picture reports the error.
   Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
   const auto unread = std::make_shared<const ScanOrder>(input, reading_of(view));
   state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
@@ -214,7 +213,7 @@ void Engine::show(const ScanSource& input, const OptionValues& view) {
   if (!is_open || session.error)
     open(input, view);
   else if (!has_view)
-    (void)choose_view(view);  // if the view's options are wrong, the next picture reports it
+    (void)choose_view(view);  // if the view's options are wrong, the next picture reports the error
 }
 
 Result<void> Engine::choose_view(const OptionValues& view) {
@@ -278,7 +277,7 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   return {};
 }
 
-// Makes the piece that a picture is to show. Meanwhile other pictures can be drawn.
+// Makes the finished piece that a picture is to show. Meanwhile other pictures can be drawn.
 Result<void> Engine::finish(PictureRequest& request) {
   // While another model is being prepared, no piece is made: the page requests the piece of the new model
   // later.
@@ -323,7 +322,7 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
 }
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
-  if (request.options.rim_mm)  // the draft limit decides whether the bevel leans enough
+  if (request.options.rim_mm)  // the check of the rim's bevel needs the height that the draft angle allows
     if (auto known = find_draft_limit(request, PieceUse::entry); !known)
       RELIEVO_CHECK(unless_cancelled(known.error()));
   return state_->with_drawing([&](Drawing& drawing) { return drawing.profile(std::move(request), line); });

@@ -30,10 +30,10 @@ struct EngineStatus {
   bool can_turn = false;    // whether pictures can show the model from other views
 };
 
-// Every method may be called from any thread. While one method draws, others that draw wait.
+// The engine of a document. Every method may be called from any thread. While one draws, others that draw wait.
 class Engine {
  public:
-  // `changed` is for systems without threads. It is called when status() has changed within a call.
+  // `changed` is for systems without threads. It is called when status() has changed within a call of this object.
   explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 

@@ -99,7 +99,7 @@ Result<Answer> profile(Engine& engine, const Json& json) {
   return answer_of(Json{{"heights_mm", heights}});
 }
 
-// Answers with the points of the model under places of its picture, and null beside the model.
+// Answers with the points of the model under positions in its picture; null for positions beside the model.
 Result<Answer> points(Engine& engine, const Json& json) {
   RELIEVO_TRY(const std::vector<Vec2> places, places_from(json));
   RELIEVO_TRY(const auto found, engine.points_under(places));

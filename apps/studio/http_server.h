@@ -7,8 +7,8 @@
 
 namespace relievo::app::studio {
 
-// An httplib::Server whose connections are managed by Connections. No other program can share its port. If
-// the body of a request was not read to its end, the connection is closed after the answer.
+// An httplib::Server whose connections are managed by the class Connections. No other program can share its port. If
+// a request's body was not read to its end, the connection is closed after the answer.
 class HttpServer : public httplib::Server {
  public:
   HttpServer();

@@ -13,9 +13,9 @@
 namespace relievo::app::studio {
 namespace {
 
-// Returns for each model the share of its points to keep, so that all models are about equally dense: all
-// points are drawn as discs of the same size, which suits only one density. The spacing of a model is at most
-// three times that of the densest one.
+// Returns for each model the share of its points to keep, so that all models are about equally dense. This is needed
+// because all points are drawn as discs of the same size, which suits only one density. The common spacing is that of
+// the coarsest model, but at most three times that of the densest one.
 std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
   std::vector<double> apart;
   if (places.empty()) return apart;
@@ -63,8 +63,8 @@ bool LoadedScan::is_one_file() const {
   return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
 }
 
-// Adds the points of a model. Keeps normals only if all models have them, and colours only if all models have
-// them.
+// Adds the points of a model to `all`. Drops the normals unless all models have normals, and the colours unless all
+// models have colours.
 void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
   const bool is_mesh = !file.mesh.empty();
   const std::vector<Index> outlying = is_mesh ? std::vector<Index>() : outliers(file.cloud);
@@ -82,7 +82,7 @@ void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double sha
 }
 
 Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides() const {
-  constexpr std::size_t scattered = 400'000;  // about half of them face the viewer
+  constexpr std::size_t scattered = 400'000;  // number of points, of which about half face the viewer
   if (scene_.models.empty())
     return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
   const Mesh& mesh = scene_.models[0].file->mesh;

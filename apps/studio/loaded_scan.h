@@ -46,8 +46,8 @@ class LoadedScan {
   // Returns the number of outliers that were left out of clouds.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns the remarks on the files of the scan, one line each: which points the readers left out (in a
-  // scene with the name of the file), and that points were sampled from a mesh.
+  // Returns the remarks on the files of the scan, one line each: on points that the readers left out, and on points
+  // that were sampled from a mesh. In a scene, remarks on left-out points name the file.
   std::vector<std::string> remarks() const;
 
   // Returns the points for the relief in that view. If they are sampled from meshes or scenes, there are
@@ -72,7 +72,7 @@ InputArguments reading_of(const OptionValues& values);
 // as `is_unwanted` returns true.
 Result<LoadedScan> read_scan(const ScanOrder& from, const std::function<bool()>& is_unwanted);
 
-// Returns the options with the best side in place of the view `auto`; unchanged while no side is chosen.
+// Returns the options with the chosen side `best` in place of the view `auto`; unchanged while no side is chosen.
 OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best);
 
 }  // namespace relievo::app::studio

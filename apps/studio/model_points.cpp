@@ -8,7 +8,7 @@
 namespace relievo::app::studio {
 namespace {
 
-// Places that are further from every point, in sampling distances, are beside the model.
+// A position that is further than this from every point is beside the model; in sampling distances.
 constexpr double most_distance = 3;
 
 Vec3 nearest_point(const Surface& surface, const Vec2& place) {

@@ -48,7 +48,7 @@ void OpenDocuments::leave(const std::string& tab) {
   forget_tab(tab);
 }
 
-// Removes a tab that was closed or shows another document now. The caller has locked `mutex_`.
+// Forgets a tab that was closed or now shows another document. The caller has locked `mutex_`.
 void OpenDocuments::forget_tab(const std::string& tab) {
   std::erase_if(tabs_, [&](const Tab& each) { return each.name == tab; });
 }

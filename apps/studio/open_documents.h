@@ -12,11 +12,11 @@
 
 namespace relievo::app::studio {
 
-// Every method may be called from any thread.
+// The open documents and their engines. Every method may be called from any thread.
 class OpenDocuments {
  public:
-  // Limits for the open documents that no tab shows, and for all open documents. Beyond them, the document
-  // that was used least recently is closed. If a tab shows that document, the tab opens it again.
+  // The largest number of open documents that no tab shows, and of all open documents. Beyond these limits, the least
+  // recently used document is closed. If a tab shows that document, the tab opens it again.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
 
   // The largest number of known tabs. Beyond it, the tab that opened its document first is forgotten, because
@@ -68,7 +68,7 @@ class OpenDocuments {
   std::function<void()> changed_;
   Mutex mutex_;
   std::list<Entry> entries_;
-  std::list<Tab> tabs_;                           // sorted by the time of their last opening, newest first
+  std::list<Tab> tabs_;                           // the tab that opened its document last comes first
   std::vector<std::shared_ptr<Engine>> closing_;  // engines of closed documents, until their work ends
 };
 

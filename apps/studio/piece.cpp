@@ -10,7 +10,7 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr std::size_t most_limits = 16;  // limits to keep, since options often return to earlier values
+constexpr std::size_t most_limits = 16;  // kept draft limits, since users often return to earlier options
 
 ReliefOptions without_height(ReliefOptions options) {
   options.height_mm.reset();
@@ -48,7 +48,7 @@ Result<std::shared_ptr<const MadeRelief>> PieceMaker::piece(PieceUse use, const 
   RELIEVO_TRY(MadeRelief made, watched(shown, use, [&](Progress* progress) {
                 return make_relief(*shown.model, options, progress);
               }));
-  made_.reset();  // if memory runs out below, no piece may be left with wrong options
+  made_.reset();  // if memory runs out below, the old piece must not stay with the new options
   made_model_ = shown.number;
   made_options_ = options;
   made_ = std::make_shared<const MadeRelief>(std::move(made));

@@ -15,8 +15,8 @@
 
 namespace relievo::app::studio {
 
-// Returns the height of the relief in a piece. This is the requested height, except if the piece is the
-// surface that a tool leaves; then it is the height that results.
+// Returns the height of the relief in a piece. This is the requested height, unless the piece has the surface that a
+// milling tool leaves: then the relief may be lower, and its measured height is returned.
 double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
 
 // A prepared model with its unique number.
@@ -25,8 +25,8 @@ struct NumberedModel {
   std::uint64_t number = 0;
 };
 
-// The purpose of PieceMaker's results: a file to export, a check of the user's entry, or a picture. The next
-// picture cancels work for a picture.
+// The purpose of a finished piece: a file to export, a check of the user's entry, or a picture. The next picture
+// cancels work whose purpose is a picture.
 enum class PieceUse { file, entry, picture };
 
 // Makes finished pieces, one at a time. Meanwhile other pictures can be drawn. Every method may be called
@@ -47,14 +47,14 @@ class PieceMaker {
   Result<std::shared_ptr<const MadeRelief>> piece(PieceUse use, const NumberedModel& shown,
                                                   const ReliefOptions& options);
 
-  // Returns highest_with_draft(), and keeps it for later calls with the same model and options; the height
-  // may differ. Errors: those of highest_with_draft(); kind cancelled after cancel().
+  // Returns the result of highest_with_draft(), and keeps it for later calls with the same model and the same options
+  // except for the height. Errors: those of highest_with_draft(); kind cancelled after cancel().
   Result<double> draft_limit(PieceUse use, const NumberedModel& shown, const ReliefOptions& options);
 
   // Returns the kept result of draft_limit() for that model and these options; nothing if there is none.
   std::optional<double> known_draft_limit(const NumberedModel& shown, const ReliefOptions& options) const;
 
-  // Cancels the running work. If `use` is given, cancels only work for that use.
+  // Cancels the running work. If `use` is given, cancels it only if it has that purpose.
   void cancel(std::optional<PieceUse> use = {});
 
  private:

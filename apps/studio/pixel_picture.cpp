@@ -25,7 +25,7 @@ Colour colour_of(PixelUse use) {
   return std::ranges::find(left_out, use, &UseInfo::use)->colour;
 }
 
-// Returns greys for points by depth: the nearest point is white, the farthest dark.
+// Maps depths of points to greys: the nearest point is white, the farthest one dark.
 class GreyOfDepth {
  public:
   explicit GreyOfDepth(const Cloud& cloud) : cloud_(cloud) {

@@ -12,10 +12,10 @@ namespace relievo::app::studio {
 // nearer ones brighter; all others have the colour of their use. The model must have pixels.
 Picture picture_of_uses(const SceneModel& image);
 
-// Returns facts about a depth image: the meaning of its values, whether they became a surface or the
-// brightness of a lithophane, whether they are proportional to heights, the width of the image divided by its
-// height, the number of pixels, and for each use except `kept` its name, its colour and the number of its
-// pixels. The model must have pixels.
+// Returns facts about a depth image: the meaning of its values; whether the values became a surface or the
+// brightness of a lithophane; whether they are proportional to heights; the width of the image divided by its
+// height; the number of pixels; and, for each use of pixels except `kept`, the use's name, its colour and the number
+// of its pixels. The model must have pixels.
 nlohmann::json uses_json(const SceneModel& image);
 
 }  // namespace relievo::app::studio

@@ -11,11 +11,10 @@
 
 namespace relievo::app::studio {
 
-// Has a random token, which is part of the page's address. Checks that requests contain the token and come
-// from that page.
+// Checks that requests come from the page and contain its token, a random text that is part of the page's address.
 class RequestGuard {
  public:
-  // Uses the token of a former run. If `former_token` is not a token, makes a random one.
+  // Uses the token of a former run. If `former_token` is not a valid token, makes a new random one.
   explicit RequestGuard(const std::string& former_token);
 
   void set_port(int port) { port_ = port; }

@@ -28,7 +28,7 @@ struct Range {
   double min, max, otherwise;
 };
 
-// Returns a number of the object. Returns `range.otherwise` if it is missing, and nothing if it is not a
+// Returns the number under `key`. Returns `range.otherwise` if the key is missing, and nothing if its value is not a
 // number within the range.
 std::optional<double> number(const Json& json, const char* key, const Range& range) {
   const auto found = json.find(key);

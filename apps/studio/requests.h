@@ -19,7 +19,7 @@ Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<std::vector<Vec2>> places_from(const nlohmann::json& json);
 Result<View> view_from(const nlohmann::json& json);
 
-// Returns the options of a height map and the material of a picture, for an export.
+// Reads the order for an export: the options of a height map and the material of a picture.
 Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
 // Returns the options for preparing a scan. Options that the page did not send have their defaults.

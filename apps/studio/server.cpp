@@ -23,7 +23,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
-// Uploads at the same time: a quarter of the threads, so that others can answer.
+// The largest number of simultaneous uploads: a quarter of the threads, so that the others can answer requests.
 constexpr int most_files = 24;
 
 class ScopedCount {
@@ -33,7 +33,7 @@ class ScopedCount {
   ScopedCount& operator=(const ScopedCount&) = delete;
   ~ScopedCount() { --count_; }
 
-  // Returns the count just after this object increased it.
+  // Returns the value of the count just after this object increased it.
   int number() const { return number_; }
 
  private:
@@ -46,9 +46,9 @@ class StatusStream {
   StatusStream(std::atomic<int>& pages, Actions& actions, const std::string& run_name)
       : count_(pages), actions_(actions), run_name_(run_name) {}
 
-  // Returns the events since the last call, after a comment line. Without events, only the line is sent:
-  // sending is the only way to find out whether the page is still open. The first text begins with the retry
-  // time and the name of the run instead of the comment.
+  // Returns a comment line and the events since the last call. The comment line is sent even without events, since
+  // sending is the only way to find out whether the page is still open. The text of the first call begins with the
+  // retry time and the name of the run instead of the comment line.
   std::string next() {
     std::string text = is_new_ ? cat("retry: 300\ndata: ", Json{{"run", run_name_}}.dump(), "\n\n") : ":\n";
     is_new_ = is_busy_ = false;

@@ -27,7 +27,7 @@ class Server {
   // Opens the port and returns the page's address. Errors: kind option if the port is taken.
   Result<std::string> bind();
 
-  // Answers until the last page was closed for good. Before the first page opens, it waits without limit.
+  // Answers requests until no page has been open for ServerOptions::linger. Waits for the first page without limit.
   void run();
 
  private:

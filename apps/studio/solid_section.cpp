@@ -12,7 +12,7 @@ struct Crossing {
   double along, z;  // `along` in multiples of the distance between samples, z in mm
 };
 
-// Raises the samples between two crossings to the line between them, if they are lower.
+// Raises each sample between two crossings to the height of the line through them, if the sample is lower.
 void raise(std::vector<float>& heights, Crossing a, Crossing b) {
   if (a.along > b.along) std::swap(a, b);
   const double last = static_cast<double>(heights.size() - 1);

@@ -1,5 +1,4 @@
-// Stores documents with their thumbnails, and scans that were dropped on the page. They stay after the studio
-// ends.
+// Stores documents with their thumbnails, and scans that were dropped on the page, beyond the end of the studio.
 #pragma once
 
 #include <cstdint>
@@ -58,18 +57,18 @@ class Store {
   // output if it cannot be read.
   virtual Result<std::string> document(const std::string& /*id*/) const { return {}; }
 
-  // Stores the state of a document, which is JSON of the page. If `is_moving`, the next state follows soon.
+  // Stores the state of a document, which is JSON from the page. If `is_moving`, the next state will follow soon.
   // Errors: kind input if `id` is not the name of a document; kind output.
   virtual Result<void> keep_document(const std::string&, std::string_view, bool /*is_moving*/) { return {}; }
 
   // Stores the thumbnail of a document, a small picture, as a data URL. Errors: those of keep_document().
   virtual Result<void> keep_thumbnail(const std::string& /*id*/, std::string_view) { return {}; }
 
-  // Makes a document the newest in the list.
+  // Makes a document the most recent one in the list of recent().
   virtual void touch(const std::string& /*id*/) {}
 
-  // Returns the most_recent documents that were opened or changed last, the newest first. If `after` is not
-  // empty, returns the documents that follow it in this order.
+  // Returns at most `most_recent` documents in the order of their last opening or change, newest first. If `after` is
+  // not empty, the list begins behind that document.
   virtual std::vector<KeptDocument> recent(const std::string& /*after*/) const { return {}; }
 
   // Returns the number and the size of all stored documents. A document stays until remove() is called for

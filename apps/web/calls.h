@@ -1,4 +1,4 @@
-// Calls functions by name for JavaScript. Each takes JSON, and returns JSON and bytes.
+// Lets JavaScript call functions by name. Each function takes JSON, and returns JSON and bytes.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,8 +14,8 @@ struct CallAnswer {
   std::vector<std::byte> bytes = {};
 };
 
-// Calls the function of that name. If it makes an object that stays alive, it returns a number, by which
-// later calls refer to the object. Errors: those of the function; kind option for an unknown name.
+// Calls the function of that name. If the function makes an object that stays alive, its answer has a number by which
+// later calls refer to that object. Errors: those of the function; kind option for an unknown name.
 Result<CallAnswer> call(std::string_view name, const nlohmann::json& arguments);
 
 }  // namespace relievo::app::web

@@ -48,13 +48,13 @@ __attribute__((export_name("relievo_free"))) void relievo_free(void* memory) {
   std::free(memory);
 }
 
-// Calls the function that a JSON request names. The same object has the function's arguments.
+// Calls a function. `request` is a JSON object with the function's name and its arguments.
 __attribute__((export_name("relievo_call"))) const AnswerView* relievo_call(const char* request,
                                                                             std::size_t size) {
   static std::string text;
   static std::vector<std::byte> bytes;
   static AnswerView view;
-  bytes = {};  // frees the last answer, since the call may need the memory
+  bytes = {};  // frees the last answer, since the call may need its memory
   relievo::Result<CallAnswer> answer = answer_to({request, size});
   const Json json = answer ? answer->json : error_json(answer.error());
   text = json.dump(-1, ' ', false, Json::error_handler_t::replace);

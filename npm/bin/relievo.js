@@ -88,8 +88,8 @@ function fileOnDisk(name) {
 const REFERRING = [".obj", ".gltf", ".json", ".relievo"];
 const NAMING_FILES = ["font", "ornaments"]; // options whose values may be paths
 
-// Gives the engine the input files under the names that the user typed. If these files can refer to others, also gives
-// it all files in their folders.
+// Gives the engine the input files under the names that the user typed. If these files can refer to other files, also
+// gives the engine all files in their folders.
 function addFiles(engine, inputs) {
   const add = (file) => {
     const name = file.split(path.sep).join("/");

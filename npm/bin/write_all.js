@@ -19,8 +19,8 @@ function writeBeside(name, bytes, made) {
   }
 }
 
-// Writes all files, [[name, bytes], ...], or none. Writes all of them under temporary names first. Removes only files
-// that it has made itself.
+// Writes all files, [[name, bytes], ...], or none of them. First writes them under temporary names. After an error it
+// removes only files that it has made itself.
 export function writeAll(files) {
   const made = [];
   try {

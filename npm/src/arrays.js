@@ -12,7 +12,7 @@ function typedArray(name, given, Type) {
   throw new TypeError(`${name}: expected an array of numbers`);
 }
 
-// Returns a PLY file with points (x, y, z of each in turn) and, if they are given, normals, colours and faces.
+// Returns a PLY file with points (x, y and z of each point in turn) and, if they are given, normals, colours and faces.
 export function cloudFile({ points, normals, colours, faces }) {
   const p = typedArray("points", points, Float64Array), count = Math.ceil(p.length / 3);
   expectLength("points", p, 3 * count);

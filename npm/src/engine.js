@@ -19,7 +19,7 @@ export class Engine {
   #files = new Map();
   #lastFailure;
   #log = "";
-  progress = null; // (stage, fraction) => false to cancel
+  progress = null; // a function (stage, fraction), which returns false to cancel the call
 
   // `module` is a compiled WebAssembly module. `statuses` is called with the text of each status report.
   static async create(module, statuses) {

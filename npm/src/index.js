@@ -20,7 +20,7 @@ function call(engine, name, request = {}) {
 const nearestIn = (engine) => (name, names) => engine.call("nearest", { name, names }).json.name;
 
 // Calls the engine and reports the progress. Cancels the call as soon as the signal is aborted, or the callback returns
-// false or throws. An error that the callback throws is thrown on.
+// false or throws. Throws the error that the callback has thrown.
 function watchedCall(engine, name, request, { progress, signal } = {}) {
   signal?.throwIfAborted();
   const thrown = [];
@@ -70,8 +70,8 @@ export class Relief {
     return this.#file("solid", `relief.${format}`, { units });
   }
 
-  // Returns the heights of the front as a file: a 16-bit PNG, or a TIFF ("tif") in millimetres. The options are those
-  // of the command line: pixel or dpi replace size; bits, area, zero and high are the flags heightmap-*.
+  // Returns the height map of the front as a file: a 16-bit PNG, or a TIFF ("tif") in millimetres. The options mean
+  // the same as on the command line. pixel or dpi replace size; bits, area, zero and high are the flags --heightmap-*.
   heightMapFile(format = "png", { size = 1024, units = "mm", pixel, dpi, bits, area, zero, high } = {}) {
     const given = { pixel, dpi, "heightmap-bits": bits, "heightmap-area": area, "heightmap-zero": zero, "heightmap-high": high };
     const texts = Object.entries(given).filter(([, value]) => value !== undefined).map(([name, value]) => [name, String(value)]);
@@ -175,7 +175,7 @@ export class Session {
     return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
   }
 
-  // Return x, y and z of each point of the surface, and three indices for each triangle.
+  // Return x, y and z of each point of the surface, and the three indices of each triangle's corners.
   get points() {
     return new Float64Array(call(this.#engine, "surface_points", { session: this.#number }).bytes.buffer);
   }

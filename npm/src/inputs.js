@@ -8,7 +8,7 @@ const nameOf = new Map(optionTable.map(({ keyword, name }) => [camelCase(keyword
 const isNumber = new Set(optionTable.filter((option) => "min" in option).map(({ name }) => name));
 const keywordOf = new Map([...nameOf].map(([keyword, name]) => [name, keyword]));
 const OF_THE_CALL = new Set(["progress", "signal", "baseImage", "streamAboveMb", "name"]);
-// Maps keywords, with and without their unit, to keywords: users often omit the unit.
+// Maps keywords to themselves, and keywords without their unit to the full keywords, because users often omit the unit.
 const all = [...nameOf.keys(), ...OF_THE_CALL];
 const keywords = new Map([...all.map((keyword) => [keyword.replace(/(Mm|Deg|Mb)$/, ""), keyword]), ...all.map((keyword) => [keyword, keyword])]);
 
@@ -39,8 +39,8 @@ export function filesOf(source, name) {
   return files;
 }
 
-// Returns the files that are models. Leaves out files to which others refer: materials, buffers, textures, and the
-// models of a scene; fonts and drawings; and the list of ornaments that the options name.
+// Returns the files that are models. Leaves out files to which other files refer (materials, buffers, textures, and the
+// models of a scene), fonts, drawings, and the list of ornaments that the options name.
 export function modelsOf(files, { ornaments } = {}) {
   const names = files.map(([name]) => name).filter((name) => name !== ornaments);
   const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
@@ -50,7 +50,7 @@ export function modelsOf(files, { ornaments } = {}) {
   return names.filter((name) => !beside.has(ending(name)));
 }
 
-// Returns numbers as a text: a list as X,Y and a list of lists as X,Y;X,Y. Returns other values unchanged.
+// Converts numbers to a text: a list to X,Y and a list of lists to X,Y;X,Y. Returns other values unchanged.
 function textOf(value) {
   if (typeof value === "number") return String(value);
   if (!Array.isArray(value) && !ArrayBuffer.isView(value)) return value;

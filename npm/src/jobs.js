@@ -8,14 +8,14 @@ export class WorkerJobs {
   #waiting = new Map();
   #last = 0;
 
-  // start() takes a function for messages and one for errors. It returns { post, end, rest }. rest() is called when no
-  // job is left.
+  // start() starts a worker. It takes a function that handles messages and one that handles errors. It returns
+  // { post, end, rest }; rest() is called when no job is left.
   constructor(start) {
     this.#start = start;
   }
 
-  // Makes a relief. `results` says which results to send back: { solids: ["stl"], heightMap: { size }, preview: { size
-  // } }.
+  // Makes a relief. `results` names the results to send back, such as
+  // { solids: ["stl"], heightMap: { size }, preview: { size } }.
   make(source, { progress, signal, ...options } = {}, results = {}) {
     return this.#send({ job: "make", source, options, results }, progress, signal);
   }

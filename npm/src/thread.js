@@ -1,4 +1,4 @@
-// Runs in the worker of RelievoWorker. Answers messages with calls of the package.
+// Runs in the worker of RelievoWorker. Answers each message by calling a function of the package.
 import { make, sample } from "./index.js";
 
 const errorFields = ({ name, message, kind, input, place, expected }) => ({ name, message, kind, input, place, expected });

@@ -17,7 +17,7 @@ const SAMPLES = [
     ["--height", "2", "--diameter", "40", "--text", "СВОБОДА 1848", "--text-arc", "around"]],
 ];
 
-// Fonts by file: outlines of TrueType, joined and reordered letters, and outlines of PostScript in a collection.
+// Font files with TrueType outlines, joined letters, reordered letters, and PostScript outlines, and a text for each.
 const NOTO = "/usr/share/fonts/truetype/noto", FONTS = [
   [`${NOTO}/NotoNaskhArabic-Regular.ttf`, "السلام عليكم ١٢"],
   [`${NOTO}/NotoSerifHebrew-Regular.ttf`, "שָׁלוֹם עולם"],

@@ -28,7 +28,7 @@ std::string dtype_text(const py::array& array) {
   raise_input(given.name, "shape", cat("expected ", expected, ", found ", shape_text(given.array)));
 }
 
-// Calls f with a function that returns the number in a row and a column, for any type of number in memory.
+// Calls f with a function that returns the number in a given row and column, for arrays of any type of number.
 template <typename F>
 void with_reader(const NamedArray& given, F&& f) {
   const py::array& array = given.array;
@@ -54,7 +54,7 @@ void with_reader(const NamedArray& given, F&& f) {
   if (kind == 'u' && size == 1) return read_as(std::uint8_t{});
   if (kind != 'f' && kind != 'i' && kind != 'u')
     raise_input(given.name, "dtype", cat("expected numbers, found ", dtype_text(array)));
-  // Arrays in half or extended precision, or in the other byte order, are rare, so they are copied.
+  // Arrays in half or extended precision, or in the other byte order, are rare. They are first converted to a copy.
   const char* const plain = kind == 'f' ? "float64" : "int64";
   return with_reader({given.name, py::array(array.attr("astype")(plain))}, std::forward<F>(f));
 }

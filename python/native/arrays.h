@@ -61,7 +61,7 @@ py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, std::sh
   return array;
 }
 
-// Returns such an array of rows: of points, colours, normals or triangles.
+// Returns a read-only array that refers to `rows`, which are points, colours, normals or triangles, without a copy.
 template <typename Row>
 py::array view_of(const std::vector<Row>& rows, std::shared_ptr<const void> owner) {
   using Number = typename Row::value_type;

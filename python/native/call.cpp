@@ -19,8 +19,8 @@ namespace {
 // The time between two checks for Ctrl-C. People perceive an answer within a tenth of a second as immediate.
 constexpr std::chrono::milliseconds signal_interval(50);
 
-// The number of running watched() calls for which this thread waits. A callback may make another call while
-// the first one runs.
+// The number of running watched() calls for which this thread waits. It may be more than one, since a callback of
+// one call may make another call.
 thread_local int calls_of_this_thread = 0;
 
 struct Event {
@@ -74,8 +74,7 @@ struct CountedCall {
 class Fork {
  public:
   // Waits until no call of the library is running. A fork within a callback would wait for its own call for
-  // ever, so in that case begin() does not wait; the child process can then use this module only after
-  // exec().
+  // ever, so begin() does not wait there. The child process of such a fork can use this module only after exec().
   void begin() {
     is_prepared_ = calls_of_this_thread == 0;
     if (!is_prepared_) return;
@@ -91,8 +90,8 @@ class Fork {
     working().unlock();
   }
 
-  // A thread of the parent process has locked the mutex, so the child makes a new one. The child has no other
-  // thread.
+  // A thread of the parent process has locked the mutex, so the child makes a new mutex. This is safe, as the child has
+  // no other thread.
   void end_in_child() {
     if (!std::exchange(is_prepared_, false)) return;
     std::construct_at(&working());

@@ -26,7 +26,7 @@ py::str text_of(std::string_view text);
 // array.
 [[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
 
-// Makes all calls from Python raise OutOfMemory for std::bad_alloc, and reserves the memory that this needs.
+// Makes all calls from Python raise OutOfMemory for std::bad_alloc, and reserves the memory for this exception.
 void add_errors();
 
 // Returns the value of a result, or raises its error.

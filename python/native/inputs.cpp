@@ -33,11 +33,11 @@ struct ArrayModel {
   std::shared_ptr<const DepthImage> depths;
 };
 
-// A model, or the path of a model, a scene or a project.
+// One input: the path of a model, a scene or a project; the content of a file; or a model made from arrays.
 using Source = std::variant<std::string, FileBytes, ArrayModel>;
 
 // Returns the model with these points, and with normals, colours and triangles if they are not None.
-// `missing` is the number of rows that were left out before.
+// `missing` is the number of rows that the caller has left out.
 ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
                        const std::optional<py::array>& colours, const std::optional<py::array>& faces,
                        std::size_t missing) {

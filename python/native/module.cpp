@@ -1,5 +1,5 @@
-// The native module of the Python package: it parses arguments, calls the library and returns its results.
-// The public interface is in python/relievo/.
+// Defines the native module of the Python package, which parses arguments, calls the library and returns its
+// results. The public interface is in python/relievo/.
 #include <pybind11/stl.h>
 
 #include "native/call.h"

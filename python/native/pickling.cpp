@@ -1,4 +1,4 @@
-// Pickles reliefs: everything from which their files, pictures and arrays are made, and the original report.
+// Pickles reliefs. A pickle contains everything from which files, pictures and arrays are made, and the report.
 #include "native/pickling.h"
 
 #include <cstring>

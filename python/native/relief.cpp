@@ -117,7 +117,7 @@ py::object colours(const SharedRelief& relief) {
   return colours.empty() ? py::object(py::none()) : view_of(colours, relief);
 }
 
-// Returns the path that the caller gives for the scan of a project; an empty path if there is none.
+// Returns the path that the caller gives for the scan of a project; an empty path if none is given.
 std::string scan_path_of(const py::dict& keywords) {
   const py::object scan = keywords.attr("get")("scan");
   if (scan.is_none()) return {};

@@ -1,6 +1,6 @@
 """Relievo turns a 3D scan into a bas-relief: relievo.make("scan.ply", height_mm=3).save("relief.stl").
 
-An option of the command line is a keyword of the same name, with underscores; where the option is a length or an angle,
+An option of the command line is a keyword of the same name, with underscores. If the option is a length or an angle,
 the keyword ends in its unit: --rim-height is rim_height_mm, --draft is draft_deg.
 """
 
@@ -51,7 +51,7 @@ def threads() -> int:
 
 
 def set_threads(number: int) -> None:
-    """Sets the number of threads of this process, at most 256; 0 means one per processor. Waits for running calls."""
+    """Sets the number of the library's threads, at most 256; 0 means one per processor. Waits for running calls."""
     try:
         _native.set_threads(_operator.index(number))
     except TypeError:

@@ -6,9 +6,9 @@ from __future__ import annotations
 class Error(Exception):
     """An input, an option or a file that the library cannot use.
 
-    kind is "input", "option", "geometry", "output", "cancelled" or "memory"; input is the name of the file, the array
-    or the keyword; place is the place in it, such as "line 12" or "row 7", or empty; expected says what was expected
-    there, and what was found instead.
+    kind is "input", "option", "geometry", "output", "cancelled" or "memory". input is the name of the file, the array
+    or the keyword that caused the error. place is the position in it, such as "line 12" or "row 7", or empty. expected
+    says what was expected there, and what was found instead.
     """
 
     kind: str

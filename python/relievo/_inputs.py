@@ -25,7 +25,7 @@ def sources_of(source: Any, normals: Any, colours: Any, faces: Any) -> list[Any]
 
 
 def _is_rows(source: Sequence[Any]) -> bool:
-    """Returns whether a sequence has rows of numbers, which are points, and is not a list of inputs."""
+    """Returns whether a sequence consists of rows of numbers, which are points; otherwise it is a list of inputs."""
     return len(source) > 0 and all(
         isinstance(row, (list, tuple)) and row and all(isinstance(x, (int, float)) for x in row) for row in source
     )
@@ -75,7 +75,7 @@ def numbers(name: str, given: Any) -> Any:
 
 
 def _object(source: Any) -> Any:
-    """Takes clouds and meshes of other packages, such as Open3D and trimesh."""
+    """Returns the model in a cloud or mesh object of another package, such as Open3D or trimesh."""
     points = _first(source, "vertices", "points")
     if points is None:
         raise TypeError(
@@ -88,7 +88,7 @@ def _object(source: Any) -> Any:
 
 
 def _array_model(points: Any, normals: Any, colours: Any, faces: Any) -> Any:
-    """Leaves out points that are not finite, as readers of files do, unless faces name points by their rows."""
+    """Returns the model. Without faces, which would index the points, leaves out points that are not finite."""
     given = [numbers("points", points), numbers("normals", normals), numbers("colours", colours)]
     kept = _finite_rows(given[0]) if faces is None else None
     if kept is not None:

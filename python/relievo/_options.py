@@ -67,7 +67,7 @@ def check_progress(progress: Any) -> None:
 
 
 def texts(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Returns the options with paths, numbers and sequences as texts in the table's format: X,Y,Z and X,Y;X,Y."""
+    """Returns the options, with paths, numbers and sequences converted to the texts that the table expects."""
     made = dict(options)
     for name, value in options.items():
         if isinstance(value, os.PathLike):
@@ -78,7 +78,7 @@ def texts(options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def text_of(value: Any) -> Any:
-    """Returns numbers as text, a row with commas, several rows with semicolons; returns other values unchanged."""
+    """Converts numbers to text: a row to X,Y,Z and several rows to X,Y;X,Y. Returns other values unchanged."""
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, numbers.Real) and not isinstance(value, bool):

@@ -31,7 +31,7 @@ class Relief:
 
     @property
     def faces(self) -> NDArray[np.uint32]:
-        """The triangles of the solid, (M, 3) numbers of vertices, counter-clockwise from outside. Not a copy."""
+        """The triangles of the solid, (M, 3) indices of vertices, counter-clockwise from outside. Not a copy."""
         return self._native.faces()
 
     @property
@@ -41,7 +41,7 @@ class Relief:
 
     @property
     def heights(self) -> NDArray[np.float32]:
-        """The front as heights in millimetres above its lowest point: rows from above, 1024 on the longer side."""
+        """The heights of the front above its lowest point in mm, as a picture of 1024 pixels on the longer side."""
         if self._heights is None:
             self._heights = self.height_map()
             self._heights.setflags(write=False)
@@ -49,7 +49,7 @@ class Relief:
 
     @property
     def report(self) -> dict[str, Any]:
-        """The report on the relief: the dict of the file that `relievo make --report` writes."""
+        """The report on the relief: the content of the file that `relievo make --report` writes, as a dict."""
         return self._native.report()
 
     @property
@@ -58,11 +58,11 @@ class Relief:
         return self._native.remarks()
 
     def height_map(self, size: int = 1024) -> NDArray[np.float32]:
-        """Returns the heights with that many pixels on the longer side; 0 beside the plate."""
+        """Returns the heights of the front as a picture with `size` pixels on its longer side; 0 beside the plate."""
         return self._native.heights(size)
 
     def preview(self, size: int = 1200, material: str = "plaster") -> NDArray[np.uint8]:
-        """Returns a picture, (rows, columns, 3): from the front and obliquely, each with `size` pixels on its longer side.
+        """Returns a picture, (rows, columns, 3): a front and an oblique view, each `size` pixels on its longer side.
 
         The materials are plaster, silver, bronze, walnut and porcelain, which is lit from behind.
         """
@@ -86,12 +86,12 @@ class Relief:
         heightmap_high: Optional[str] = None,
         preview_size: int = 1200,
     ) -> None:
-        """Writes files, with the bytes that `relievo make` writes: all of them or, on any error, none.
+        """Writes the files that `relievo make` writes, with the same bytes: all of them or, on any error, none.
 
-        The solid ends in .stl, .3mf, .ply or .obj, in units "mm" or "in"; the preview in .png; the height map in .png (16
-        bits) or .tif (millimetres). The sizes are of the longer side, in pixels; pixel_mm or dpi give the exact size of a
-        pixel of the height map, whose other keywords are the flags of `relievo make`. The tool's picture needs the option tool. The report is
-        JSON.
+        The path of the solid ends in .stl, .3mf, .ply or .obj; its units are "mm" or "in". The path of the preview ends
+        in .png, that of the height map in .png (16 bits) or .tif (millimetres). Sizes are longer sides in pixels.
+        pixel_mm or dpi give the exact size of a pixel of the height map; its other keywords have the meaning of the
+        flags of `relievo make`. The tool's picture needs the option tool. The report is JSON.
         """
         paths = {
             "solid": solid,
@@ -148,14 +148,14 @@ def make(
 ) -> Relief:
     """Returns the relief of a scan.
 
-    source is a path of any file that `relievo make` reads, the bytes of one, an (N, 3) array of points, a 2-D depth image,
-    or an object with points, or with vertices and faces, like those of Open3D and trimesh. A list of them makes one
-    relief of several models, side by side. Points may have normals and colours, (N, 3), and faces, (M, 3), which make
-    them a mesh.
+    source is the path of any file that `relievo make` reads, the bytes of such a file, an (N, 3) array of points, a 2-D
+    depth image, or an object with points, or with vertices and faces, like those of Open3D and trimesh. A list of
+    sources makes one relief of several models, side by side. Points may have normals and colours, (N, 3). With faces,
+    (M, 3), they are a mesh.
 
-    progress is called with the name of each stage and the fraction done, at last with "done" and 1. An exception that it
-    raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time. What a file has
-    and the relief does not use, such as points that the file marks as noise, is told by a warning.
+    progress is called with the name of each stage and the fraction done, at last with "done" and 1. Ctrl-C, or an
+    exception that progress raises, ends the work and is passed on. Several threads may call this function at the same
+    time. A warning names the parts of a file that the relief does not use, such as points that the file marks as noise.
     """
     _options.check("make", options, _options.OF_MAKE)
     _options.check_progress(progress)

@@ -12,7 +12,7 @@ from ._relief import Progress, Relief
 
 
 class Frame:
-    """One relief of a session, as heights of the session's points in single precision, made in milliseconds."""
+    """One relief of a session: the heights of the session's points, in single precision. It is made in milliseconds."""
 
     def __init__(self, native: Any) -> None:
         self._native = native
@@ -29,7 +29,7 @@ class Frame:
 
     @property
     def height_mm(self) -> float:
-        """The height from the lowest to the highest point, the ground included."""
+        """The height from the lowest to the highest point, in millimetres; the ground counts as a point."""
         return self._native.height_mm()
 
     @property
@@ -39,7 +39,7 @@ class Frame:
 
     @property
     def u(self) -> float:
-        """The compression that was found: 0 makes a relief flat, 1 gives the method's own height, and more is higher."""
+        """The compression that was found: 0 makes a relief flat, 1 gives the method's own height, more is higher."""
         return self._native.u()
 
     @property
@@ -54,8 +54,8 @@ class Frame:
 class Session:
     """A scan with its visible surface prepared, so that a change of the options takes milliseconds.
 
-    Frames show only the relief; make() gives the solid. Several threads may use one session: their frames wait for each
-    other.
+    Frames show only the relief; make() gives the solid. Several threads may use one session: a frame waits until those
+    of other threads are finished.
     """
 
     @_options.with_keywords(_options.OF_MAKE)
@@ -69,8 +69,8 @@ class Session:
         progress: Progress = None,
         **options: Any,
     ) -> None:
-        """Prepares the scan, which may have any form that make() takes. The options are the defaults of frame() and
-        make()."""
+        """Prepares the scan, which may have any form that relievo.make() accepts. The options that are given here are
+        the defaults for frame() and make()."""
         _options.check("Session", options, _options.OF_MAKE)
         _options.check_progress(progress)
         sources = _inputs.sources_of(source, normals, colours, faces)
@@ -89,14 +89,15 @@ class Session:
 
     @property
     def is_inside(self) -> NDArray[np.bool_]:
-        """Per triangle, whether it belongs to the relief rather than to the ground around and within it. Not a copy."""
+        """For each triangle, whether it belongs to the relief; the others are ground around it or in it. Not a copy."""
         return self._native.is_inside()
 
     @_options.with_keywords(_options.OF_FRAME)
     def frame(self, **options: Any) -> Frame:
-        """Returns the relief that the options shape, as heights of the session's points.
+        """Returns the relief for the options, as heights of the session's points.
 
-        A height is met to 0.1 %. The method of the session is layered or paper. Draft, form, base and plate are for make().
+        The requested height is met to 0.1 %. The method of the session must be layered or paper. Only make() takes the
+        options of the draft, the form, the base and the plate.
         """
         _options.check("frame", options, _options.OF_FRAME)
         return Frame(self._native.frame({**self._options, **_options.texts(options)}))

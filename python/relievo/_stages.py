@@ -35,7 +35,7 @@ def visible_points(points: Any, normals: Any = None, *, view: Any = "front", up:
 
 @_documented("mean_curvature")
 def mean_curvature(points: Any, normals: Any, queries: Any = None, *, scale: float = 2.0) -> NDArray[np.float64]:
-    """points and normals are (N, 3), queries numbers of points, or None for all of them; scale is CurvatureOptions::scale."""
+    """points and normals are (N, 3). queries are indices of points; None means all. scale: CurvatureOptions::scale."""
     return _native.mean_curvature(
         numbers("points", points), numbers("normals", normals), numbers("queries", queries), scale
     )
@@ -55,8 +55,8 @@ def triangulate(points: Any) -> NDArray[np.uint32]:
 
 @_documented("HeightSystem")
 class HeightSystem:
-    """points is (N, 2). rho, the sampling distance, decides which triangles are too wide to be inside; it is measured
-    if it is None. weights is (N,), or None. Raises Error for points that enclose no area.
+    """points is (N, 2). rho is the sampling distance, which decides which triangles are too wide to be inside. If rho
+    is None, it is measured. weights is (N,), or None. Raises Error for points that enclose no area.
     """
 
     def __init__(self, points: Any, *, rho: Optional[float] = None, weights: Any = None) -> None:
@@ -69,11 +69,11 @@ class HeightSystem:
 
     @property
     def is_boundary(self) -> NDArray[np.bool_]:
-        """Per point, whether its height is 0. Not a copy."""
+        """For each point, whether it is on the boundary, where the height is 0. Not a copy."""
         return self._native.is_boundary()
 
     def solve(self, slopes: Any) -> NDArray[np.float64]:
-        """Returns the height of each point for the slopes (dz/dx, dz/dy), (N, 2). Rows of float64 are not copied."""
+        """Returns the height of each point from the slopes (dz/dx, dz/dy), (N, 2). Rows of float64 are not copied."""
         return self._native.solve(numbers("slopes", slopes))
 
 
@@ -83,7 +83,7 @@ def solve_heights(points: Any, slopes: Any, *, rho: Optional[float] = None, weig
 
 
 class Cloud:
-    """Points with, possibly, normals and colours, as make() and Session take them."""
+    """Points, with normals and colours if there are any, in a form that make() and Session accept."""
 
     def __init__(self, points: Any, normals: Any = None, colours: Any = None) -> None:
         self.points: NDArray[Any] = np.asarray(points)

@@ -4,10 +4,10 @@
     run = relievo.batch.run("scans", "reliefs", scheduler="tcp://head:8786", height=4, width=80)
 
 or, on a command line, `python3 -m relievo.batch scans -o reliefs --scheduler tcp://head:8786 --height 4`. Without a
-scheduler it starts workers on this machine. All machines need the program `relievo` and the same file system. The
-program lists the scans, makes each relief and writes the pages (`relievo batch --list`, `--job` and `--pages`), so the
-results are those of `relievo batch`, and either can continue a run of the other. Dask distributes the scans, and shows
-the run in its dashboard. If a worker dies, another worker does its scans again.
+scheduler, workers are started on this machine. All machines need the program `relievo` and the same file system. The
+program lists the scans, makes each relief and writes the pages (`relievo batch --list`, `--job` and `--pages`). So the
+results are those of `relievo batch`, and a run that one of them began can be continued by the other. Dask distributes
+the scans, and shows the run in its dashboard. If a worker dies, another worker does its scans again.
 """
 
 # Dask's functions have no type annotations, and the type check must also work without Dask.
@@ -43,7 +43,7 @@ QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.in
 
 @dataclass(frozen=True)
 class Run:
-    """The outcome of a run: a record for each scan, as `scans.jsonl` has it, and the path of the page."""
+    """The outcome of a run: a record for each scan, as in the file `scans.jsonl`, and the path of the page."""
 
     records: list[Record]
     index: str
@@ -70,11 +70,12 @@ def run(
 ) -> Run:
     """Makes reliefs of all scans of a folder or a table (CSV), and returns the outcome as a `Run`.
 
-    `scheduler` is the address of a Dask scheduler, or a `distributed.Client`; without it `workers` processes are
-    started here, by default one per processor. Options are those of `relievo batch` with underscores: `height=4`,
-    `base_image="wave.png"`, `files="stl,report"`; `flags` are further flags as typed. `watch(record, done, count)` is
-    called after each scan. Scans that were made before from the same contents and options are kept. A scan that fails
-    does not end the run. Raises ValueError with the program's message if options are wrong or there is no scan.
+    `scheduler` is the address of a Dask scheduler, or a `distributed.Client`. Without it, `workers` processes are
+    started on this machine, by default one per processor. The options are those of `relievo batch`, with underscores:
+    `height=4`, `base_image="wave.png"`, `files="stl,report"`. `flags` are further flags, as typed on a command line.
+    `watch(record, done, count)` is called after each scan. Reliefs that were made before from the same contents and
+    options are kept. A scan that fails does not end the run. Raises ValueError with the program's message if options
+    are wrong or there is no scan.
     """
     program = _path_of(program)
     output = os.path.abspath(output)
@@ -104,7 +105,7 @@ def _call(command: list[str]) -> str:
 
 
 def _output_flags(flags: typing.Sequence[str]) -> list[str]:
-    """Returns the flags that choose the kinds of output files. The line that lists a scan has the other options."""
+    """Returns the flags that choose the kinds of output files. The line for each scan contains all other options."""
     kept = []
     for flag, value in zip(flags, [*flags[1:], ""]):
         if flag.startswith("--files="):
@@ -116,7 +117,7 @@ def _output_flags(flags: typing.Sequence[str]) -> list[str]:
 
 @contextmanager
 def _client(scheduler: typing.Any, workers: int | None) -> typing.Iterator[typing.Any]:
-    """Yields a client of Dask, and closes it afterwards, unless it is the caller's."""
+    """Yields a client of Dask. Closes it afterwards, unless the caller has provided it."""
     import cloudpickle
     import dask
     from distributed import Client, LocalCluster
@@ -202,7 +203,7 @@ def _tasks(lines: list[str], threads: int) -> typing.Iterator[list[str]]:
 
 
 def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
-    """Runs on a worker: does the jobs of those lines in turn. Returns the records of the jobs that have ended."""
+    """Runs on a worker: does the jobs of the lines one after another. Returns the records of the jobs that ended."""
     jobs = [word for line in lines for word in ("--job", line)]
     ended = subprocess.run([program, "batch", *flags, *jobs], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                            check=False)
@@ -212,7 +213,7 @@ def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
 
 
 def _outcome(future: typing.Any) -> tuple[dict[str, Record], str]:
-    """Returns the records of a task by name of the scan, and the reason why its other scans have no record."""
+    """Returns the records of a task by the names of the scans, and the reason why its other scans have no record."""
     error = future.exception()
     if error is not None:
         return {}, f"{type(error).__name__}: {error}"

@@ -1,7 +1,7 @@
 """An independent reference of Nie et al., "Bas-relief Generation from Point Clouds Based on Normal Space
 Compression with Real-time Adjustment on CPU", written from the text of the paper alone, in double precision.
 
-The text leaves the following open; this file reads it so:
+The text leaves some points open. This file interprets it as follows:
 
  1. rho is the median over all points of sqrt(pi r_8^2 / 8), where r_8 is the distance in space to the 8th nearest
     other point.
@@ -9,19 +9,19 @@ The text leaves the following open; this file reads it so:
     Normals point outward and are scaled to length 1 first; a zero normal stays zero, so its point is dropped by 3.
  3. Grid cells have the side 2 rho and start at the minimum x and y of all points. A point is visible if its z is at
     least its cell's greatest z minus 2 rho and its normal has n_z > 0.
- 4. In (2), Q is every point of the whole cloud within 3 h of x (x itself included), theta = exp(-|y - q|^2 / h^2) and
-    h = 3 rho. n(x) is the normalised theta-weighted mean of the normals of Q; it depends on x, and its derivatives
-    count. Q does not change under differentiation. (3) is taken at the point itself, not at its projection, with
+ 4. In (2), Q is the set of all points of the cloud within 3 h of x, x included; theta = exp(-|y - q|^2 / h^2) and
+    h = 3 rho. n(x) is the normalised theta-weighted mean of the normals of Q. It depends on x, so its derivatives
+    count. Q is constant under differentiation. (3) is evaluated at the point itself, not at its projection, with
     the opposite sign, so that convex is positive. Where the gradient or the mean normal is 0, k is 0.
  5. |k| is clipped at its 99th percentile over the visible points and divided by it. If that percentile is below
     1e-9 / rho, the surface is flat up to rounding and k is 0. delta is the population standard deviation of |k|.
- 6. P_b holds the corners of the Delaunay triangles with a circumradius above 3 rho, the corners of the convex hull's
-    edges and the points in no triangle (Qhull leaves out all but one of points that coincide in the plane).
- 7. The exact mode takes every visible point as a control point.
- 8. Q of (8) holds the six nearest other points in the view plane; ties fall as the k-d tree returns them. Each row is
+ 6. P_b consists of the corners of Delaunay triangles with a circumradius above 3 rho, the corners of the convex hull's
+    edges, and the points in no triangle (of points that coincide in the plane, Qhull leaves out all but one).
+ 7. In the exact mode every visible point is a control point.
+ 8. Q of (8) consists of the six nearest other points in the view plane; the k-d tree decides ties. Each row is
     divided by the z of the expected normal: z_p - z_q = s_p . ((x, y)_p - (x, y)_q), where |s| is at most 4. Each
-    boundary point adds the row z_p = 0 of weight 1.
- 9. A height span is max - min, where 0 counts as a height. The second (9), the detail, takes the span before it.
+    boundary point adds the row z_p = 0 with weight 1.
+ 9. A height span is max - min, where 0 counts as a height. In the second (9), the detail, h is the span without detail.
 10. The defaults are alpha 4, beta 0.01 and gamma 0.02.
 11. In (6), w_k is 1 everywhere at alpha = 0; at alpha, beta > 0 it is 0 where k is 0; at beta = 0 < alpha it is
     1 - 1/e everywhere. If delta is 0, the limit of small delta is taken: 1 where k is not 0.
@@ -39,14 +39,14 @@ PAIRS_AT_ONCE = 60_000  # This limits the memory of the curvature: a jet of so m
 
 @dataclass
 class Relief:
-    """The result: all arrays refer to the visible points, of which `index` gives the places in the input."""
+    """The result. All arrays have one entry per visible point."""
 
     index: np.ndarray     # The indices of the visible points in the input, ascending.
     z: np.ndarray         # The heights above the base, including the detail.
     k: np.ndarray         # The normalised mean curvature, positive where the surface is convex.
     delta: float          # The standard deviation of |k|, see (6).
     boundary: np.ndarray  # True for the points in P_b.
-    rho: float            # The sampling density of the cloud.
+    rho: float            # The sampling distance of the cloud, see reading 1.
     height: float         # The height span of z, see reading 9.
 
 
@@ -70,7 +70,7 @@ def visible_points(points, normals, rho):
 
 
 class Jet:
-    """A function of x in space up to second order at many places: value (N), gradient (3, N), Hessian (3, 3, N)."""
+    """A function's Taylor expansion up to second order at N points: value (N), gradient (3, N), Hessian (3, 3, N)."""
 
     def __init__(self, value, gradient, hessian):
         self.value, self.gradient, self.hessian = value, gradient, hessian
@@ -98,8 +98,8 @@ class Jet:
 def mls_jet(x, q, q_normals, starts, h):
     """Equation (2): returns the jet of g at points of the cloud (h is the width of theta).
 
-    The arrays x, q and q_normals (3, pairs) list each point with all of its neighbours Q; `starts` are the places
-    where each point's list begins. In (2), the derivative of e by y holds n fixed and that of theta is
+    The arrays x, q and q_normals (3, pairs) list each point with all of its neighbours Q; `starts` are the indices at
+    which each point's list begins. In (2), n is constant in the derivative of e by y, and the derivative of theta is
     -2 (y - q) theta / h^2. As |n| = 1, g(x) = sum 2 d theta (1 - d^2 / h^2) with d = (x - q) . n(x).
     """
     sizes = np.diff(np.append(starts, x.shape[1]))
@@ -163,7 +163,7 @@ def normalised_curvature(k, rho):
 
 
 def boundary_points(xy, rho):
-    """Section 3.3, reading 6: returns which points belong to P_b."""
+    """Section 3.3, reading 6: returns for each point whether it belongs to P_b."""
     xy = xy - xy.mean(axis=0)
     try:
         mesh = Delaunay(xy)
@@ -202,7 +202,7 @@ def expected_normals(normals, weight):
 
 
 def slopes(expected):
-    """Reading 8: returns the slopes dz/dx, dz/dy of surfaces with the expected normals, limited to STEEPEST."""
+    """Reading 8: returns the slopes (dz/dx, dz/dy) that belong to the expected normals, limited to STEEPEST."""
     divisor = np.maximum(expected[:, 2], np.linalg.norm(expected[:, :2], axis=1) / STEEPEST)
     return -expected[:, :2] / np.maximum(divisor, 1e-300)[:, None]  # The maximum makes the slope 0 / 0 equal 0.
 
@@ -227,7 +227,7 @@ class HeightSystem:
         self.diagonal = np.bincount(self.p, minlength=self.n) + np.bincount(self.q, minlength=self.n) + boundary
 
     def transposed_times(self, rows):
-        """Returns A^T b, where `rows` is the part of b that belongs to (8); the boundary's part is 0."""
+        """Returns A^T b. `rows` is the part of b for the rows of (8); the part for the rows of the boundary is 0."""
         return np.bincount(self.p, rows, self.n) - np.bincount(self.q, rows, self.n)
 
     def normal_times(self, z):
@@ -284,7 +284,7 @@ class Front:
         self.system = HeightSystem(self.xy, self.boundary)
 
     def slope(self, alpha, beta):
-        """Equations (5) to (7): returns the slopes asked for at all visible points."""
+        """Equations (5) to (7): returns the expected slopes at all visible points."""
         w_k = curvature_weight(self.k, self.delta, alpha, beta)
         return slopes(expected_normals(self.normals, w_k * self.w_b))
 

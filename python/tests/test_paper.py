@@ -18,7 +18,7 @@ SCANS = Path(os.environ["RELIEVO_SOURCE"]).parent / "shared" / "data"
 
 
 def bumpy_ball(points):
-    """Returns random points of a ball with bumps, and its normals, by differences along two tangents."""
+    """Returns random points of a ball with bumps, and their normals from differences along two tangents."""
 
     def surface(directions):
         u = directions / np.linalg.norm(directions, axis=1, keepdims=True)
@@ -34,7 +34,7 @@ def bumpy_ball(points):
 
 
 def ball_before_a_tilted_sheet():
-    """Returns a ball before a sheet that leans: the sheet has a depth jump all around the ball."""
+    """Returns points of a ball in front of an inclined plane, which has a depth jump all around the ball."""
     random = np.random.default_rng(2)
     ball, ball_normals = bumpy_ball(5000)
     x, y = random.uniform(-2, 2, (2, 9000))
@@ -52,7 +52,7 @@ def waves(points):
 
 
 def read_scan(path, most):
-    """Returns at most so many random points, and their normals, of a binary PLY file."""
+    """Returns at most `most` random points of a binary PLY file, and their normals."""
     data = path.read_bytes()
     end = data.index(b"end_header\n") + 11
     lines = [line.split() for line in data[:end].decode().splitlines()]
@@ -72,8 +72,8 @@ def read_scan(path, most):
 @unittest.skipIf(reference is None, "SKIPPED: the reference needs SciPy, which scripts/prepare --python installs")
 class Paper(unittest.TestCase):
     def agrees(self, points, normals, *coefficients, correlation=0.999, error=0.005):
-        """Compares the heights of points that both find visible, other than those of the boundary, which the program puts
-        on the base, for coefficients alpha, beta and gamma. The error is the root mean square as a share of the height."""
+        """Compares heights of program and reference for coefficients alpha, beta and gamma, at points visible in both
+        and not on the boundary, which the program puts on the base. The error is the rms as a share of the height."""
         # The reference gets normals in single precision, as the program uses them. At beta = 0.01, even the
         # curvatures that rounding errors cause on a plane get weights of about 0.5 by (6).
         front = reference.Front(points, normals.astype(np.float32))

@@ -40,7 +40,7 @@ class Calls(unittest.TestCase):
                 call(scan(), progress=stop)
         with self.assertRaises(TypeError):
             relievo.make(scan(), progress=lambda: None)
-        relievo.make(scan(), height_mm=3, resolution_mm=0.5)  # works as before
+        relievo.make(scan(), height_mm=3, resolution_mm=0.5)  # the library works as before
 
     def test_end_with_ctrl_c(self):
         # A shell that starts the tests in the background makes them ignore SIGINT, so the test sets the usual handler.

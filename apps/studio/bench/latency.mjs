@@ -18,9 +18,9 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  // The brush goes round and never rests: a place near the last one changes nothing, so no picture shows it.
+  // The brush moves in a circle without a stop: an event near the last position paints nothing, so no picture follows.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
-  handle: {isHandle: true, from: 0.45, to: 0.6}, // of a text on an arc, whose outlines the page moves itself
+  handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };
 
 const found = await findBrowser();
@@ -81,7 +81,7 @@ async function measureOpening(scan) {
 // openInPage() and openInProgram() open a scan, and return a function that ends its engine.
 async function openInPage(page, scan) {
   await page.goto(pathToFileURL(html).href);
-  await page.locator("#samples button").first().waitFor({state: "attached"}); // then the page is ready
+  await page.locator("#samples button").first().waitFor({state: "attached"}); // shows that the page is ready
   await page.locator("#file").setInputFiles(scan);
   return () => {};
 }
@@ -106,7 +106,7 @@ async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   const isRange = !tool && !isHandle, box = await target.boundingBox();
   if (isHandle) Object.assign(box, {x: box.x + box.width / 2 - from * 600, width: 600});
-  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // position of the thumb
+  const grip = isRange ? await target.evaluate((range) => range.value / range.max) : from; // where the thumb is
   const place = (share, above = 0) => [box.x + box.width * share, box.y + box.height / 2 - above * box.width];
   await page.mouse.move(...place(grip));
   await page.mouse.down();
@@ -115,7 +115,7 @@ async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
   for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
     const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
     if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
-    const angle = i / EVENTS_PER_SECOND * Math.PI, half = (to - from) / 2; // there and back in 2 s
+    const angle = i / EVENTS_PER_SECOND * Math.PI, half = (to - from) / 2; // the pointer returns every 2 s
     const share = from + half * (1 - Math.cos(angle));
     await page.mouse.move(...place(share, isRound ? half * Math.sin(angle) : 0));
   }
@@ -129,8 +129,8 @@ async function drag(page, {slider, tool, isHandle, isRound, from, to}) {
 function listen(type) {
   const heard = window.heard = {events: [], pictures: [], pixels: 0};
   addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
-  // The browser calls the function just before it draws this picture; the timer then runs when the picture is on its
-  // way to the screen.
+  // The browser calls the function just before it draws the picture. The timer runs after that, when the picture is on
+  // its way to the screen.
   const drawn = (shows) =>
     requestAnimationFrame(() => setTimeout(() => heard.pictures.push({shows, at: performance.now()})));
   const handle = document.querySelector(".letter-handle");

@@ -104,8 +104,8 @@ std::string digits_of(const std::string& hash) {
   return hash.substr(hash.find(':') + 1);
 }
 
-// Returns the names of stored scans' folders that occur in the text of a document, with all its steps of
-// undo, or of a scene.
+// Returns the names of the folders of stored scans that a text mentions. The text is a document with all its undo
+// steps, or a scene file.
 std::set<std::string> scans_in(std::string_view text) {
   constexpr std::string_view before = "/scans/";
   constexpr std::size_t digits = 16;
@@ -119,8 +119,7 @@ std::set<std::string> scans_in(std::string_view text) {
 }  // namespace
 
 DiskStore::DiskStore(StateFolder folder)
-    // If the folder is not ours: no file can exist below /dev/null, so nothing is found and nothing is
-    // stored.
+    // Replaces a folder that is not ours by /dev/null. No file can exist below it, so nothing is found or stored.
     : folder_(folder.is_ours ? std::move(folder.path) : "/dev/null"),
       notice_(std::move(folder.notice)),
       lock_(std::move(folder.lock)) {
@@ -155,7 +154,7 @@ Result<void> DiskStore::keep_document(const std::string& id, std::string_view st
   RELIEVO_CHECK(check_id(id));
   RELIEVO_CHECK(
       write(cat(documents, "/", id, ".json"), state, is_moving ? Durability::program : Durability::machine));
-  touch(id);  // the kernel's own time is the same for all files that are written within a few milliseconds
+  touch(id);  // needed for the order of documents: the kernel's own file times are too coarse
   return {};
 }
 
@@ -225,7 +224,7 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// The file has mode 0600: anybody who knows the address could use the studio.
+// Only the user may read the file (mode 0600), since anybody who knows the address could use the studio.
 void DiskStore::keep_address(const StudioAddress& address) const {
   (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
               Durability::machine);
@@ -253,8 +252,8 @@ std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
   return std::nullopt;
 }
 
-// Returns the folders of the stored scans that the texts mention, and of those that scene files among these
-// scans mention.
+// Returns the folders of the stored scans that the texts mention. If one of these scans is a scene file, also returns
+// the folders of the scans that the scene file mentions.
 Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts) const {
   std::set<std::string> found;
   for (std::size_t i = 0; i < texts.size(); ++i)

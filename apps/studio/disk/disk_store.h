@@ -12,14 +12,13 @@
 
 namespace relievo::app::studio {
 
-// The address that the studio had last. The next studio uses it again, so that pages that are still open find
-// that studio.
+// The last address of the studio. The next run uses it again, so that pages that are still open find it.
 struct StudioAddress {
   int port = 0;       // 0 if unknown
   std::string token;  // empty if unknown
 };
 
-// Which crashes a written file must survive: those of the program, or those of the machine, too.
+// The crashes that a written file must survive: only those of the program, or also those of the machine.
 enum class Durability { program, machine };
 
 // Stores each file as a whole. Removes a document only on request. Removes a scan only if this store has kept
@@ -37,7 +36,7 @@ class DiskStore final : public Store {
   KeptAmount amount() const override;
   Result<void> remove(const std::string& id) override;
   std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const override;
-  // The scan stays until this program ends, and after that as long as a document needs it.
+  // Keeps the scan until this program ends, and after that as long as a document needs the scan.
   Result<ScanSource> keep(DroppedScan& scan) override;
   std::optional<ScanSource> find_scan(const std::string& hash) const override;
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_studios = 9;  // most studios of a user that run at the same time, each with its own folder
+constexpr int most_studios = 9;  // largest number of studios of a user that run at the same time
 constexpr std::string_view mark_owner = "studio";
 constexpr unsigned private_folder = 0700;
 

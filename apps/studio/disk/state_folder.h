@@ -16,7 +16,7 @@ struct StateFolder {
   Descriptor lock{-1};   // while this file is open, no other studio can take the folder
 };
 
-// Makes the folder and its mark if it is missing. Returns whether the folder has the mark of a studio.
+// Makes the folder with the mark of a studio if it is missing. Returns whether the folder now has that mark.
 bool own_state_folder(const std::string& folder);
 
 // Reserves the folder `chosen` for this studio, or the default folder if `chosen` is empty. If another studio

@@ -1,5 +1,5 @@
-// The brush: a drag on the picture paints a stroke onto the model. The pointer's places become points of the model, and
-// the stroke so far is a change of the document, so that the picture follows.
+// Paints strokes: a drag of the brush on the picture paints a stroke onto the model. The engine converts the pointer's
+// positions to points of the model. The unfinished stroke is already in the document, so that pictures show it.
 
 import {$, clamp, make, pair} from "./controls.js";
 import {hasScale} from "./document.js";
@@ -15,10 +15,10 @@ const SLIDERS = {
   tolerance: {label: "Tolerance", name: "Tolerance of the region", min: 1, max: 30, first: 6, unit: "°",
     help: "A region ends where the surface turns more than this within 1 % of the longer side"},
 };
-const KEPT = "brush"; // key of the kept settings
-const KEY_STEP = 12, RESIZE = 1.15; // pixels of an arrow key, factor of a bracket
+const KEPT = "brush"; // key of the settings in localStorage
+const KEY_STEP = 12, RESIZE = 1.15; // an arrow key moves by 12 pixels; the keys [ and ] resize by this factor
 
-// Returns the settings that were kept; those that are missing or wrong get their first values.
+// Returns the stored settings. Missing and wrong ones get their initial values.
 function keptSettings() {
   const kept = JSON.parse(localStorage.getItem(KEPT) ?? "{}"), kind = kept.kind in KINDS ? kept.kind : "soften";
   const area = kept.area in AREAS ? kept.area : "line";
@@ -77,7 +77,7 @@ export class Brush {
 
   // -------------------------------------------------------------------------------------------------- the picture
 
-  // Returns the longer side of the figure in the scan's units and in mm of the picture.
+  // Returns the longer side of the figure, in the scan's units (`longer`) and in mm on the piece (`longerMm`).
   scaleOf({facts: {relief_mm: [low, high]}}) {
     return {longer: Math.max(...this.modelFacts().size), longerMm: Math.max(high[0] - low[0], high[1] - low[1])};
   }
@@ -88,15 +88,15 @@ export class Brush {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Returns the place of a pixel in shares of the figure's box, as the engine has it: in pieces that are mirrored, from
-  // the right.
+  // Converts a pixel to a position in the figure's box, as shares of its width and height. As the model itself is not
+  // mirrored, positions on mirrored pieces count from the right.
   shareOf(stage, [px, py]) {
     const {relief_mm: [low, high]} = stage.facts, place = stage.toPlace(px, py);
     const [u, v] = place.map((x, i) => (x - low[i]) / (high[i] - low[i]));
     return [this.isMirroredForm ? 1 - u : u, v];
   }
 
-  // Returns why nothing can be painted now; an empty text if it can.
+  // Returns the reason why nothing can be painted now; an empty text if painting is possible.
   refusal({facts, isAwaiting, turning}) {
     const {now} = this.doc;
     if (isAwaiting || turning.shown || !this.modelFacts())
@@ -107,7 +107,7 @@ export class Brush {
     return facts.relief_mm ? "" : "A piece that is bent cannot be painted: choose another kind, paint, and come back.";
   }
 
-  // Returns the pixel of a point of the model in the picture from the front.
+  // Returns the pixel at which the picture from the front shows a point of the model.
   pixelOf(stage, point) {
     const {relief_mm: [low, high]} = stage.facts, {rotation, origin, size} = this.modelFacts();
     const [u, v] = [0, 1].map((row) =>
@@ -115,7 +115,7 @@ export class Brush {
     return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
   }
 
-  // Returns the point of the model's space at a place, as deep in the view as another point.
+  // Returns the point at a position in the figure's box, as deep in the view as the point `other`, in scan coordinates.
   pointAt(place, other) {
     const {rotation, origin, size} = this.modelFacts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
     const depth = row(2).reduce((sum, x, i) => sum + x * other[i], 0);
@@ -128,7 +128,7 @@ export class Brush {
     return this.modelFacts().rotation.slice(6, 9).map((x) => Number(x.toFixed(6)));
   }
 
-  // Marks a stroke of the document on the picture, or none if that is null.
+  // Highlights a stroke of the document on the picture; null removes the highlight.
   highlight(stroke) {
     this.highlighted = stroke;
     this.stage?.drawOverlay();
@@ -143,7 +143,7 @@ export class Brush {
     return [make("path", {class: "stroke", d, "stroke-width": width.toFixed(1)}), make("path", {class: "cut", d})];
   }
 
-  // Returns SVG elements: the highlighted stroke, the outline of the brush, and the part that it changes fully.
+  // Returns SVG elements: the highlighted stroke, the outline of the brush, and that of its part with full effect.
   marks(stage) {
     this.stage = stage;
     if (!stage.facts?.relief_mm || !this.modelFacts() || stage.isAwaiting) return [];
@@ -159,7 +159,7 @@ export class Brush {
     return [circle(r, "brush"), ...(full > 2 && this.settings.kind !== "erase" ? [circle(full, "brush full")] : [])];
   }
 
-  // Shows the brush at a pixel, or not if that is null.
+  // Shows the brush at a pixel; null hides it.
   point(stage, at) {
     this.at = at;
     stage.drawOverlay();
@@ -185,7 +185,7 @@ export class Brush {
     this.painting = null;
   }
 
-  // Takes back the stroke that is being painted. Returns whether there was one.
+  // Discards the stroke that is being painted. Returns whether there was one.
   cancel() {
     const {painting} = this;
     this.painting = null;
@@ -201,7 +201,7 @@ export class Brush {
     this.move(stage, at);
   }
 
-  // Sets the brush down where it is, or lifts it.
+  // Starts a stroke at the brush's position, or ends the running stroke, for users of the keyboard.
   toggle(stage) {
     if (this.painting) return this.end();
     const {width, height} = stage.size, [offsetX, offsetY] = this.at ?? [width / 2, height / 2];

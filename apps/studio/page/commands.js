@@ -29,7 +29,7 @@ export function takeCommands({doc, stage, entries, exporting, views, modes, crop
   takeDrops($("#veil"), own.openFiles);
 
   const isShown = () => !$("#studio").hidden, isReady = () => own.isThere() && isShown();
-  const ofDocument = (act, may = isShown) => () => may() && act(); // keys must not change a document that is not shown
+  const ofDocument = (act, may = isShown) => () => may() && act(); // keys must not change a hidden document
   const commands = {z: ofDocument(undo), Z: ofDocument(redo), y: ofDocument(redo), s: ofDocument(own.save, isReady),
     e: ofDocument(makeFiles, isReady), o: choose};
   const keys = {

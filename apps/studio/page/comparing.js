@@ -1,12 +1,12 @@
-// Compares the relief with the model, or with the relief of a snapshot: draws a picture of it over that of the relief,
-// with the same size and position of the figure. The engine fits each picture to its own plate. The model's plate is
-// the figure with its margin, so the two pictures need different zooms.
+// Compares the relief with its rival: the model, or the relief of a snapshot. Draws the picture of the rival over that
+// of the relief, with the same size and position of the figure. The engine fits each picture to its own plate. The
+// model's plate is the figure with its margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "./controls.js";
 import {isRound} from "./measure.js";
 
 const NEAR = 12; // the pointer grabs the divider within this distance, in pixels
-const ALIKE = 1e-3; // zooms whose ratio differs less from 1 differ by less than a pixel
+const ALIKE = 1e-3; // if the ratio of two zooms differs less from 1, the pictures differ by less than a pixel
 const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the engine's limits of the zoom
 
 export class Comparing {
@@ -21,8 +21,8 @@ export class Comparing {
     return Boolean(this.isComparing || this.isHolding);
   }
 
-  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding), coloured by its
-  // attention (hasAttention) or not. `rival` has the settings that are shown on that side instead, or is null.
+  // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding). With hasAttention the
+  // model is coloured by its attention. If `rival`, the settings of a snapshot, is not null, they replace the model.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
@@ -124,7 +124,7 @@ export class Comparing {
     const at = (x, y) => stage.toPixels([x, y]).map((pixel) => pixel * scale);
     const [[left, bottom], [right, top]] = figure, [red, green, blue, opacity] =
       context.getImageData(...at(left, bottom).map(Math.round), 1, 1).data;
-    if (opacity < 255) return; // that corner of the plate is outside the picture
+    if (opacity < 255) return; // the lower left corner of the figure is outside the picture
     const fill = (how, draw, from, to) => {
       context.globalCompositeOperation = how;
       context.beginPath();

@@ -38,7 +38,7 @@ export function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-// Returns the font size divided by its size on most screens. Drawings with texts grow by this factor.
+// Returns the page's font size divided by the font size on most screens. Drawings with texts grow by this factor.
 export const scaleOfType = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.5;
 
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));

@@ -120,7 +120,7 @@ export class CropFrame {
       act(event.clientX - left, event.clientY - top, event);
     };
     element.onpointerdown = place((x, y, event) => this.press(x, y, event));
-    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // e.g. a palm while a pen draws
     element.onpointermove = place((x, y, event) =>
       (!this.drag ? this.hover(x, y) : isOther(event) || this.move(x, y)));
     element.onpointerup = place((x, y, event) => isOther(event) || this.release());
@@ -191,7 +191,7 @@ export class CropFrame {
     if (numbers) this.choose(numbers);
   }
 
-  // Cancels the running drag. Returns whether there was one.
+  // Cancels the running drag. Returns whether a drag was running.
   giveUp() {
     const ran = Boolean(this.drag);
     this.drag = null;

@@ -58,7 +58,7 @@ export class CurveEditor {
   show(part = {}) {
     Object.assign(this, part);
     const key = JSON.stringify([this.tone, this.samples, this.histogram]);
-    if (key === this.drawnKey) return; // this method runs for every picture
+    if (key === this.drawnKey) return; // nothing has changed; this method runs for every picture
     this.drawnKey = key;
     const isPreset = PRESETS.some(({tone}) => tone === this.tone);
     this.preset.value = isPreset ? this.tone : "own";

@@ -3,7 +3,7 @@
 import {$, count, make, paint} from "./controls.js";
 import {hasScale} from "./document.js";
 
-const LEAST_OFFERED = 0.02; // fraction of the pixels from which blur is also offered beside the picture
+const LEAST_OFFERED = 0.02; // if more than this share of the pixels is blur, keeping them is offered beside the picture
 
 const WORDS = {missing: "No value", background: "Background", blur: "Blur at edges"};
 const VALUES = {depth: "depths", height: "heights", inverse: "inverse depths", luminance: "brightness"};
@@ -57,8 +57,8 @@ export class DepthPanel {
     this.showScale();
   }
 
-  // Shows the options of pictures whose heights are proportional to their values: how deep the figure is, or what one
-  // unit of the values is.
+  // Shows the options of pictures whose heights are proportional to their values: the depth of the figure, and the
+  // height in mm of one unit of the values.
   showScale() {
     const isScaled = this.depth?.is_scaled, {options} = this.doc.now;
     this.rows["depth-range"].hidden = !isScaled || hasScale(this.doc.now);

@@ -44,7 +44,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
-    this.changedAt = 0; // time of the last change in ms since 1970; of two states the later one counts
+    this.changedAt = 0; // time of the last change in ms since 1970; the state with the later time replaces others
   }
 
   stamp() {
@@ -59,7 +59,7 @@ export class Document {
   begin(step) {
     this.steps = [step];
     this.at = 0;
-    this.changedAt = 0; // makes any stored state newer
+    this.changedAt = 0; // any stored state is newer than this
     this.gesture = null;
   }
 
@@ -182,7 +182,7 @@ export const hasGround = ({options}) => options.outline !== "none" && options.fo
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
 // Returns the options for the engine and for `relievo make`. Leaves out options that have the value of a new document,
-// except those that the engine wants stated.
+// except those that must always be stated (`is_stated`).
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
@@ -199,8 +199,8 @@ export function engineOptions(step) {
     for (const name of SHAPE) delete options[name];
     return {...options, method: "linear"};
   }
-  delete options["mm-per-value"], delete options.ground; // kept in the document for forms with a scale
-  if (options.method === "paper") for (const name of NOT_OF_PAPER) delete options[name]; // kept for the other method
+  delete options["mm-per-value"], delete options.ground; // the document keeps them for forms with a scale
+  if (options.method === "paper") for (const name of NOT_OF_PAPER) delete options[name]; // the document keeps them
   return options;
 }
 
@@ -235,8 +235,8 @@ export function studioPart({isHeightLocked, isDieOfPiece, u, material, light}) {
     ...(about.materials.some(({id}) => id === material) && {material}), ...(isDirection(light) && {light})};
 }
 
-// Returns the step for the content of a project file, as the engine has read it. `usual` has the defaults of numbers
-// that the file does not state. If the file states no width, the size of the plate determines the width.
+// Returns the document's step for the content of a project file that the engine has read. `usual` has the defaults of
+// numbers that the file does not state. If the file states no width, the size of the plate determines the width.
 export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {}, studio = {}}) {
   const options = hasScale({options: own}) ? {...own, method: FIRST.options.method} : own;
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");

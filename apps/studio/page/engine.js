@@ -5,11 +5,11 @@
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
 //                                  drawsMeanwhile: whether it draws pictures while a piece is made, and while the
 //                                  first view is prepared; canRemove: whether documents are stored until the user
-//                                  removes them; slowMs: if pictures take longer, they get fewer pixels}. The Engine
-//                                  has the same traits
+//                                  removes them; slowMs: if pictures take longer than this, they get fewer pixels}.
+//                                  The Engine has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
-//                                  picture; `facts` has facts about it; the request is optional; onSolved is
-//                                  called when a picture only has to be drawn, if the next one can be solved meanwhile
+//                                  picture; `facts` has facts about it; the request is optional. onSolved is called
+//                                  when the heights of a picture are solved, if the next can be solved meanwhile
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
 //                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
@@ -31,7 +31,7 @@ export const cancelled = () => new EngineError({kind: "cancelled", text: "Cancel
 export const TAB = Math.random().toString(36).slice(2); // the name of this tab of the browser
 
 export class Engine {
-  document = ""; // the document of most requests
+  document = ""; // the document to which most requests refer
   #transport;
   #making = null;
 
@@ -60,14 +60,14 @@ export class Engine {
   addressOf = (file) => this.#transport.addressOf(file);
   follow = (...listeners) => this.#transport.follow(...listeners);
 
-  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (the
-  // input or project with which the program was started), notice (a message about the folder in which documents are
-  // stored), most_upload (in bytes), and in some engines limits (texts about limits for users).
+  // Returns the facts for the page's start: version, options, readable, endings, formats, views, materials, stages,
+  // curve, samples, recent, first (the input or project with which the program was started), notice (a message about
+  // the folder in which documents are stored), most_upload (in bytes), and in some engines limits (texts for users).
   about = async () => (await this.#transport.call("about")).body;
 
-  // Returns {document, input, is_there, kept}: the document of a scan, and its stored state, or null.
+  // Returns {document, input, is_there, kept} for a scan. `kept` is the stored state of its document, or null.
   find = (input) => this.#ask("document", {input});
-  // Uploads files of the browser. Returns the input that consists of them.
+  // Uploads files of the browser. Returns them as one input.
   upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
   // Returns {input, is_there, options, usual, studio}, the content of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
@@ -77,20 +77,19 @@ export class Engine {
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
 
-  // Returns the facts about the shown model.
   facts = () => this.#ask("facts");
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, facts}. `options.signal` can cancel the picture, options.onSolved is that of the transport.
+  // Return {image: ImageData, facts}. `options` has a `signal` that can cancel the picture, and onSolved of transports.
   picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
-  // Returns a depth image, in which the pixels that were left out have the colours that its facts state.
+  // Returns a picture of the depth image. Its facts state the colours of the pixels that were left out.
   pixels = () => this.#picture("pixels");
 
   // Returns heights in mm along a line.
   profile = async (request) => (await this.#ask("profile", request)).heights_mm;
-  // Returns the points of the model under places of its picture; null for places beside the model. A place
+  // Returns the points of the model under positions in its picture; null for positions beside the model. A position
   // is [x, y] from the lower left corner of the model's box, as shares of the box's width and height.
   pointsUnder = async (places) => (await this.#ask("points", {places})).points;
   // Returns {outlines, at, error} of each ornament; an outline is an array x, y, x, y ... in mm from the piece's middle.
@@ -106,7 +105,7 @@ export class Engine {
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
-  // Cancels the making of the piece, and the request for the piece or for its file.
+  // Stops making the piece, and cancels the request for the piece or for its file.
   cancelPiece() {
     this.#making?.abort();
     return this.#ask("cancel_piece");

@@ -1,12 +1,12 @@
-// Collects the values that the user enters for the piece. The document takes them in the order of their entry, each as
-// its own step. If the engine may be unable to make a piece with a value, the entry is tried first.
+// Collects the values that the user enters for the piece. The document takes them in the order in which they were
+// entered, each as its own step. If the engine may be unable to make a piece with a value, the value is tried first.
 
 import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
 
 export class Entries {
-  // Calls added() when the user makes an entry, changed() when an entry that waits was added or removed, and
-  // refused(entry, error) when the engine refuses an entry. `isInserting` says whether the document is taking an entry
+  // Calls added() when the user makes an entry, changed() when the list of waiting entries has changed, and
+  // refused(entry, error) when the engine refuses an entry. `isInserting` is true while the document takes an entry
   // that has waited.
   constructor({engine, doc, added, changed, refused}) {
     Object.assign(this, {engine, doc, added, changed, refused, waiting: [], last: Promise.resolve(), isInserting: false});
@@ -45,9 +45,9 @@ export class Entries {
     }
   }
 
-  // Throws the engine's error if the options are invalid or no piece can be made with them. To find out, requests one
-  // height of the piece. Ignores the error of a width that does not fit, which is corrected later, and that of a view
-  // that is not prepared yet.
+  // Throws the engine's error if the options are invalid or no piece can be made with them. For this test, requests
+  // one height of the piece. Ignores two errors: that of a width that does not fit, which is corrected later, and that
+  // of a view that is not prepared yet.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;

@@ -8,7 +8,7 @@ import {inWords} from "./pieces.js";
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 const PIXEL = {label: "Exact size of a pixel", unit: "mm", min: 0.001, max: 100};
 
-// Converts a text such as "254 dpi" to the size of a pixel in mm. Returns other texts unchanged.
+// Converts a resolution such as "254 dpi" to the size of a pixel in mm, as text. Returns other texts unchanged.
 function withoutDpi(text) {
   const [, dots] = text.trim().match(/^([\d.,]+) *dpi$/i) ?? [];
   return dots ? `${254 / (10 * Number(dots.replace(",", ".")))} mm` : text;

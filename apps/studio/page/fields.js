@@ -4,9 +4,8 @@ import {optionOf} from "./about.js";
 import {sentence} from "./controls.js";
 import {spread} from "./slider.js";
 
-// The labels name what the user sees; a tip gives the paper's symbol. The slider spans the range `hand`, but any number
-// that the option allows can be typed. A document has a number for each of these options, except that the width may be
-// null.
+// A label names the visible effect; the tip adds the paper's symbol. The slider spans the range `hand`, but any number
+// that the option allows can be typed. A document has a number for each of these options; only the width may be null.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},

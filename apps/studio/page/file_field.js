@@ -1,4 +1,4 @@
-// A row for a file: its name, a button that chooses another one, and one that removes it.
+// Makes a row for a file: the file's name is a button that chooses another file, and a second button removes the file.
 
 import {$, make, sentence} from "./controls.js";
 
@@ -12,8 +12,8 @@ export const fileInput = (label, accept, take) =>
     if (file) take(file);
   }});
 
-// Calls take(file) for a file that is dropped on the element, which the page would otherwise open as a scan. `promise`
-// is shown meanwhile.
+// Calls take(file) for a file that is dropped on the element; the page would otherwise open the file as a scan. While
+// a file is dragged over the element, shows the text `promise`, which says what a drop will do.
 export function takeDropsOn(element, promise, take) {
   const veil = (text) => () => ($("#veil p").textContent = text);
   element.ondragover = veil(promise);
@@ -27,8 +27,8 @@ export function takeDropsOn(element, promise, take) {
 }
 
 export class FileField {
-  // `label` names the row, and `what` the file. Without a file, the button has the text `none` and says `noneSaid` to
-  // screen readers. take(file) and drop() change the file.
+  // `label` names the row, and `what` the file. Without a file, the button has the text `none`; screen readers say
+  // `noneSaid`. Calls take(file) when the user chooses a file, and drop() when the user removes it.
   constructor({label, what, none, noneSaid, accept, option, take, drop, ...attributes}) {
     Object.assign(this, {what, none, noneSaid});
     this.input = fileInput(`File of the ${what}`, accept, take);
@@ -41,7 +41,7 @@ export class FileField {
 
   choose = () => this.input.click();
 
-  // Shows the file of a path. A file that is needed can be replaced and not removed.
+  // Shows the file of a path. A file that is needed can be replaced but not removed.
   show(path, {isGone = false, isNeeded = false} = {}) {
     const name = fileNameOf(path);
     this.button.textContent = isGone ? `${name} is gone` : name || this.none;

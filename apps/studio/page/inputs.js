@@ -54,8 +54,8 @@ function doPostponed() {
   act();
 }
 
-// Calls `act` when the user is not typing: `act` moves fields, and a field that is moved can lose the focus. If an
-// earlier function still waits, `act` replaces it.
+// Calls `act` when the user is not typing, because `act` moves fields, and a moved field can lose the focus. If an
+// earlier function still waits, `act` replaces that function.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();
@@ -72,7 +72,7 @@ addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);
 // A finger that touches a slider may be about to scroll the panel. So the slider follows the finger only after a
 // sideways movement or a tap. If the browser scrolls, the slider keeps its value.
 const SIDEWAYS = 6; // in pixels
-let swipe = null; // {range, x, before, wanted} until the gesture is clear, {isScrolling} during a scroll
+let swipe = null; // {range, x, before, wanted} until the kind of gesture is known, {isScrolling} during a scroll
 
 function follow() {
   const {range, wanted} = swipe;
@@ -135,8 +135,8 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
   });
   addEventListener("keyup", ({key, target}) => {
     if (key.toLowerCase() === "b") hold(false);
-    // After Enter the field loses the focus, so that letters are keys of the page again. The Tab key continues from
-    // this field.
+    // After Enter the field loses the focus, so that letters are shortcuts of the page again. The Tab key continues
+    // from this field.
     if (key === "Enter" && target.matches?.(`.inspector :is(${TEXTS})`)) target.blur();
   });
 }

@@ -1,5 +1,5 @@
-// Shows the panel of the kind of work, with the controls that matter for it: those of the rim if there is one, and the
-// button that turns the piece into its die. The controls of all other options stay in the panels below.
+// Shows the panel of the kind of work, with the controls that matter for this kind: those of the rim if there is a rim,
+// and the button that turns the piece into its die. The controls of all other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {whenFinished} from "./inputs.js";
@@ -26,7 +26,7 @@ export class KindPanel {
   show() {
     const {now} = this.doc, {form, rim, wrap, draft} = now.options, kind = kindOf(now), hasRim = Boolean(rim);
     const key = [kind, hasRim, form, wrap, draft].join();
-    if (key === this.shown) return; // this method runs for each event of a drag
+    if (key === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = key;
     const {label, panel, note = ""} = KINDS[kind], isDie = form === "die" && kind !== "die", lower = label.toLowerCase();
     const names = [...new Set([...panel, ...(isDie ? ["draft"] : []), ...(hasRim ? RIM : [])])];

@@ -108,7 +108,7 @@ export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9
 export function fileName(step) {
   const kind = kindOf(step), {form} = step.options;
   const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
-  const isForm = ["die", "lithophane"].includes(form); // the kind would only repeat the form
+  const isForm = ["die", "lithophane"].includes(form); // the name of the kind would repeat that of the form
   return [plainName(step.input), ...words.slice(isForm ? 1 : 0)].filter(Boolean).join("-");
 }
 
@@ -149,7 +149,7 @@ export class KindCards {
     const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
     for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
     if (this.doc.gesture === null) this.showTitles();
-    if (kind === this.shown) return; // this method runs for each event of a drag
+    if (kind === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
   }

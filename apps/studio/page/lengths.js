@@ -7,8 +7,8 @@ const TERM = `${WHOLE_PART}${NUMBER}(?:/${NUMBER})?`;
 const WHOLE = new RegExp(`^ *(?<sum>-?${TERM}(?: *[+-] *${TERM})*) *(?<unit>mm|cm|in|")? *$`);
 const TERMS = new RegExp(`([+-]?) *${WHOLE_PART}(${NUMBER})(?:/(${NUMBER}))?`, "g");
 
-// Returns the number in a text. Returns NaN for a text such as "1,234", where the comma may be a decimal comma or
-// separate thousands. In "0,125" it can only be decimal.
+// Returns the number in a text. Returns NaN for a text such as "1,234", whose comma may be a decimal comma or separate
+// thousands. In "0,125" the comma can only be a decimal comma.
 function number(text) {
   const value = Number(text.replace(",", "."));
   return /^\d*[1-9]\d*,\d{3}$/.test(text) || !Number.isFinite(value) ? NaN : value;
@@ -31,10 +31,10 @@ export const shown = {unit: "mm"};
 
 export const millimetresPerUnit = () => MM[shown.unit];
 
-// Returns the unit that the page shows for an option with that unit.
+// Returns the unit that the page shows for an option whose unit in the engine is `unit`.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
-const NOISE = 1e-6; // in mm; exceeds the rounding errors of sums, so that 6.175 is always rounded up
+const NOISE = 1e-6; // in mm; larger than the rounding errors of sums, so that 6.175 is always rounded up
 
 // Returns a length without its unit. `decimals` applies to millimetres. Inches have three decimals, or four if three
 // are not exact.

@@ -1,12 +1,12 @@
-// Draws the outlines of texts and borders over the picture while it does not show them, and the handle that moves the
-// chosen one. A drag moves the outlines at once; the picture follows.
+// Draws the outlines of texts and borders over the picture while the picture itself lacks them, and the handle that
+// moves the chosen text or drawing. A drag moves the outlines at once; the picture follows later.
 
 import {ARROWS, Pause, make} from "./controls.js";
 import {degrees} from "./lights.js";
 import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
 import {GESTURE_END_MS} from "./slider.js";
 
-const BESIDE = 30; // pixels from the middle of letters to their handle
+const BESIDE = 30; // distance from the middle of the letters to their handle, in pixels
 
 const rounded = (mm) => Math.round(mm * 100) / 100;
 const whole = (angle) => ((Math.round(angle) % 360) + 360) % 360;
@@ -19,7 +19,7 @@ const pathOf = (outlines) => outlines.map((numbers) => {
   return `${path}Z`;
 }).join("");
 
-// Returns the middle of the outlines' box, and the mean of their least and largest distance from the piece's middle.
+// Returns the centre of the outlines' box, and the mean of their least and largest distance from the piece's centre.
 function extentOf(outlines) {
   const low = [Infinity, Infinity], high = [-Infinity, -Infinity];
   let nearest = Infinity, farthest = 0;
@@ -54,7 +54,7 @@ export class LetterMarks {
     return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
-  // Returns how an ornament moved since the engine placed it, as an SVG transform; and its handle's place, in mm.
+  // Returns an ornament's movement since the engine placed it, as an SVG transform, and its handle's position in mm.
   movement(ornament, {ornament: was, at, middle, radius}) {
     const sign = this.isMirrored ? -1 : 1;
     if (isOnArc(ornament) && isOnArc(was)) {
@@ -66,8 +66,8 @@ export class LetterMarks {
     return {transform: `translate(${by})`, handle: hasPlace(ornament) ? middle.map((x, i) => x + by[i]) : null};
   }
 
-  // Returns the marks over a picture, and shows the handle at its place. There are none while the piece is seen
-  // obliquely or is bent.
+  // Returns the outlines to draw over a picture, and shows the handle at its position. While the piece is seen
+  // obliquely or is bent, there are no outlines and no handle.
   marks(facts) {
     const {stage, panel} = this, {yaw, pitch} = stage.camera, {list, chosen} = panel;
     const isFlat = facts && yaw === 0 && pitch === 0 && this.doc.now.options.wrap === "none" && !facts.isTurned;
@@ -93,7 +93,7 @@ export class LetterMarks {
     return [middleX + near * (x - middleX), middleY + near * (y - middleY)];
   }
 
-  // Shows the handle of an ornament at a place, or hides it. Hiding it only for a moment would take its focus.
+  // Shows the handle of an ornament at a position, or hides it. A handle that is hidden loses the focus.
   showHandle(ornament, place = null) {
     this.handle.hidden = place === null;
     if (place === null) return;
@@ -108,7 +108,7 @@ export class LetterMarks {
       return this.stage.toPlace(clientX - left, clientY - top);
     };
     handle.onpointerdown = (event) => {
-      event.stopPropagation(); // the picture's tool must not take it
+      event.stopPropagation(); // the picture's tool must not handle it
       handle.setPointerCapture(event.pointerId);
       this.doc.endGesture();
       const {list, chosen} = this.panel, at = list[chosen].at ?? this.placed[chosen]?.at ?? [0, 0];

@@ -1,4 +1,5 @@
-// The panel of texts and borders on the ground: their list, buttons that add one, and the fields of the chosen one.
+// Shows the panel of ornaments (texts, borders and drawings): their list, buttons that add an ornament, and the fields
+// of the chosen one.
 
 import {about} from "./about.js";
 import {$, make, oneAtATime, pair, textField} from "./controls.js";
@@ -13,8 +14,8 @@ import {inWords} from "./pieces.js";
 
 const OFFERED = ["text", "beads", "rope", "line"];
 const NEW = {text: {kind: "text", text: "TEXT"}, beads: {kind: "beads"}, rope: {kind: "rope"}, line: {kind: "line"}};
-const COIN_ARC = {arc: "top"}; // of a new text on a round plate
-const SHARE_OF_GROUND = 0.6; // that a new drawing takes of the ground below the relief
+const COIN_ARC = {arc: "top"}; // settings of a new text on a round plate
+const SHARE_OF_GROUND = 0.6; // size of a new drawing divided by the height of the ground below the relief
 
 // The numbers of an ornament: their labels, and the values that the engine takes.
 const NUMBERS = {
@@ -40,7 +41,7 @@ export class LettersPanel {
   constructor({engine, doc, stage, say}) {
     Object.assign(this, {engine, doc, stage, say, chosen: -1, rows: [], errors: []});
     this.marks = new LetterMarks({stage, doc, panel: this});
-    this.refresh = oneAtATime(() => this.place().catch(() => {})); // a picture of the same state reports its error
+    this.refresh = oneAtATime(() => this.place().catch(() => {})); // the picture of this state reports the same error
     $("#ornament-kinds").append(...OFFERED.map((kind) =>
       make("button", {type: "button", class: "quiet", onclick: () => this.add(kind),
         ...(kind === "beads" && {"data-option": "ornaments"})}, `Add ${kind === "text" ? "a text" : kind === "line" ? "a line"
@@ -59,7 +60,7 @@ export class LettersPanel {
     takeDropsOn($("#letters"), "Drop to use this font or drawing", (file) => this.take(file));
   }
 
-  // Takes a dropped or chosen file: a drawing, or the font of the chosen text, or of the only one.
+  // Takes a drawing as a new ornament, or a font for the chosen text or, if no text is chosen, for the only text.
   take(file) {
     const {list, chosen} = this, key = keyOfFile(file.name), isText = ({kind = "text"}) => kind === "text";
     const ofSole = list.filter(isText).length === 1 ? list.findIndex(isText) : -1;
@@ -70,8 +71,8 @@ export class LettersPanel {
     this.takeFile(file, key, at);
   }
 
-  // Uploads a file and uses it in the ornament at that place of the list, or in a new drawing, unless the engine cannot
-  // read it or the user has opened another document meanwhile.
+  // Uploads a file and uses it in the ornament at index `at` of the list, or in a new drawing if there is none. Does
+  // not use a file that the engine cannot read, or if the user has opened another document meanwhile.
   async takeFile(file, key, at) {
     const {document} = this.engine;
     if (!this.isShown || fileOf(this.doc.now.options)) return;
@@ -89,7 +90,7 @@ export class LettersPanel {
     }
   }
 
-  // Returns size and place of a new drawing: on the ground below the relief.
+  // Returns the size and the position of a new drawing, which is placed on the ground below the relief.
   roomForDrawing() {
     const {size_mm: size, relief_mm: relief} = this.facts ?? {}, {margin} = this.doc.now.options;
     const low = size ? -size[1] / 2 : 0, high = relief ? relief[0][1] : low + (margin ?? 0);
@@ -177,7 +178,7 @@ export class LettersPanel {
       ...numbersOf(ornament).map((name) => this.numberRow(name, at)), this.engravedRow(at)];
   }
 
-  // The text changes with each letter that is typed. All letters are one step of undo.
+  // Returns the row with the text field. The document changes with each typed letter; all letters form one undo step.
   textRow(at) {
     const show = ({text}) => isUnfinished(input) || (input.value = text);
     const input = textField({"aria-label": "Text", maxlength: 500}, {
@@ -233,7 +234,7 @@ export class LettersPanel {
     this.tell();
   }
 
-  // Asks the engine where the ornaments lie, unless it has said so for these options or a drag moves one.
+  // Asks the engine for the positions of the ornaments, unless they are known for these options or a drag is running.
   async place() {
     const {list} = this, options = shownOptions(this.doc.now), key = JSON.stringify([options, this.stage.model]);
     if (key === this.placedKey || this.marks.drag || !this.stage.isReady) return;
@@ -244,7 +245,7 @@ export class LettersPanel {
     this.tell();
   }
 
-  // Shows why ornaments are not made.
+  // Shows the reason if the piece cannot have the listed ornaments.
   tell() {
     const error = this.errors[0] ?? this.facts?.ornament_error, hasList = this.list.length > 0;
     const noGround = "There is no ground around the relief for them.";

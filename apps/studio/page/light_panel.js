@@ -1,4 +1,4 @@
-// The panel of light and colour: the light for which a relief is made, and the depth of dark lines of a coloured scan.
+// Shows the panel of light and colour: the light for which a relief is made, and the depth of a coloured scan's lines.
 
 import {$, ARROWS, Pause, clamp, make, pair, textField} from "./controls.js";
 import {hasScale} from "./document.js";
@@ -7,19 +7,19 @@ import {typedNumber} from "./lengths.js";
 import {angles, degrees, direction} from "./lights.js";
 import {GESTURE_END_MS} from "./slider.js";
 
-const LOWEST = 5, HIGHEST = 85; // degrees of elevation that the engine takes
-const RADIUS = 46; // of the dial, in its own units
+const LOWEST = 5, HIGHEST = 85; // range of elevations that the engine accepts, in degrees
+const RADIUS = 46; // radius of the dial in units of its SVG
 
 const whole = (azimuth) => ((Math.round(azimuth) % 360) + 360) % 360;
 
-// Returns azimuth and elevation of the option's text "AZIMUTH,ELEVATION".
+// Parses the option's text "AZIMUTH,ELEVATION", both in degrees.
 function parse(text) {
   const [azimuth, elevation] = text.split(",").map(Number);
   return {azimuth, elevation};
 }
 const textOf = ({azimuth, elevation}) => `${whole(azimuth)},${clamp(Math.round(elevation), LOWEST, HIGHEST)}`;
 
-// The places on the dial: the light from the viewer is in the middle, and a low light is near the rim.
+// Converts a direction of light to a position on the dial: light from the viewer is in the middle, low light outside.
 const placeOf = ({azimuth, elevation}) => {
   const [x, y] = direction(azimuth, 0), far = RADIUS * (90 - elevation) / 90;
   return [far * x, -far * y];
@@ -89,7 +89,7 @@ export class LightPanel {
     const text = textOf(light), {azimuth, elevation} = parse(text);
     const lamp = direction(azimuth, elevation).map((x) => Math.round(x * 1e4) / 1e4);
     this.doc.change({light: lamp, options: {light: text}}, gesture);
-    if (gesture) this.show(); // other controls follow when the drag rests
+    if (gesture) this.show(); // the other controls are updated when the drag pauses
   }
 
   tell(facts) {
@@ -97,7 +97,7 @@ export class LightPanel {
     this.show();
   }
 
-  // Returns why no light can be chosen; "" if one can.
+  // Returns the reason why no light can be chosen; "" if a light can be chosen.
   get refusal() {
     const {options} = this.doc.now;
     if (hasScale(this.doc.now)) return "One vertical scale gives all heights";

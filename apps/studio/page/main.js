@@ -40,7 +40,7 @@ import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
 const THUMBNAIL_MS = 600; // time from the fine picture until the document's thumbnail is stored
-const SHOW_MS = 120; // pause in a drag until all controls are updated
+const SHOW_MS = 120; // length of a pause in a drag after which all controls are updated
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, added: () => takeRefusalBack(), changed: showEntries, refused});
@@ -96,7 +96,7 @@ let modelFacts = null; // facts about the shown model
 let facts = null; // facts about the newest picture
 let isKept = !about.notice;
 
-// Sets the tone curve. Returns the curve of the document, which is the former one if the drag was cancelled.
+// Sets the tone curve of the document, and returns the document's curve: the former one if the drag was cancelled.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -127,7 +127,8 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 
 function changed(before) {
   const {now} = doc;
-  // Later changes of a drag are no entries, and an entry that has waited may be older than the refusal.
+  // The message about a refusal stays during later changes of the same drag, which are no new entries, and when a
+  // waiting entry is inserted, which may be older than the refusal.
   if (!entries.isInserting && doc.steps.includes(before)) takeRefusalBack();
   opened.keep(doc.gesture !== null);
   tour.takeBack();
@@ -196,7 +197,7 @@ async function keepThumbnail() {
 
 function pictured(newest, ms, isFine) {
   facts = newest;
-  const isOfView = !facts.isTurned && !opened.asked && !opened.status.busy; // other views have other heights
+  const isOfView = !facts.isTurned && !opened.asked && !opened.status.busy; // heights differ in other views
   if (isOfView && facts.options["height-of-diagonal"]) {
     doc.note({options: {height: facts.height_mm, "height-of-diagonal": null}});
     sliders.all.height.show(facts.height_mm);
@@ -205,8 +206,8 @@ function pictured(newest, ms, isFine) {
   const isNewest = u === null ? facts.options.height === options.height : facts.u === u;
   if (!doc.now.isHeightLocked && isOfView && isNewest && !hasScale(doc.now)) {
     const slider = sliders.all.height, rounded = slider.rounded(facts.height_mm);
-    // A computed height is rounded to the slider's decimals. A very low height is not, since rounding would change it
-    // much.
+    // A computed height is rounded to the slider's decimals, but not if it is below 0.1 mm, since rounding would then
+    // change it much.
     const height = rounded < 0.1 ? facts.height_mm : rounded;
     doc.note({u: facts.u, options: {height: clamp(height, 1e-3, 1e5)}});
     slider.show(doc.now.options.height);
@@ -239,7 +240,7 @@ function progress(status) {
   if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
 
-// Called when another document was opened and its model is not ready. Removes the pictures of the former document.
+// Called when another document was opened and its model is not ready yet. Removes the former document's pictures.
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
@@ -290,7 +291,8 @@ async function arrived(status) {
   depthPanel.tell(modelFacts.depth_image).catch(failed);
   lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models); // a new scene file would not find the models' files
+  // With takesSeveral there is no panel: a new scene file could not refer to the models' files.
+  scenePanel.show(engine.takesSeveral ? [] : modelFacts.models);
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
@@ -306,7 +308,7 @@ function failed(error) {
   reopening.begin();
 }
 
-// Opens an input. Typed texts are entered before, since they belong to the document that is still shown.
+// Opens an input. First enters the texts that the user has typed, since they belong to the document that is shown now.
 async function openInput(input, work) {
   await outcome.entered();
   return opened.open(input, work).catch(failed);
@@ -314,7 +316,7 @@ async function openInput(input, work) {
 
 const openFiles = (files) => projects.openFiles(files).catch(failed);
 
-// Shows that an upload or download is running, which takes a while for large scans.
+// Shows that an upload or a download is running until the promise `bytes` settles, which takes long for large scans.
 async function take(bytes) {
   const isStart = !$("#start").hidden;
   showStart(false);

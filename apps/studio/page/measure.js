@@ -1,5 +1,5 @@
-// Measures in the front view: the dimensions of the piece, the height under the pointer, distances, and the line of a
-// section. Positions are in mm from the centre of the piece.
+// Measures in the front view: draws the dimensions of the piece, the height under the pointer, distances, and the line
+// of a section. Positions are in mm from the centre of the piece.
 
 import {clamp, make, oneAtATime, scaleOfType} from "./controls.js";
 import {withUnit} from "./lengths.js";
@@ -37,8 +37,8 @@ function rise(from, to) {
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
 }
 
-// Returns a line between two pixels with a text, which is at the line's centre or at the pixel `at`. A background keeps
-// the text readable. The text stays within the picture and covers no earlier label.
+// Draws a line between two pixels with a text at the pixel `at`, by default the line's centre. A background keeps the
+// text readable. The text stays within the picture and covers no earlier label.
 function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, (y1 + y2) / 2]) {
   const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
   const x = clamp(at[0], width / 2, picture.width - width / 2);
@@ -202,7 +202,7 @@ export class Measure {
     this.stage.drawOverlay();
   }
 
-  // Must be called for each new picture, since its heights are new.
+  // Must be called for each new picture, whose heights may differ from those of the last one.
   pictured() {
     if (this.line) this.setLine({...this.line, heights: null});
   }

@@ -13,8 +13,8 @@ new ResizeObserver(() => {
 
 $("#toast .close").onclick = hideToast;
 
-// Shows a message until the next message, but for at most eight seconds unless `isLasting`. Returns a function that
-// removes the message.
+// Shows a message until the next message. Without `isLasting`, it is shown for at most eight seconds. Returns a
+// function that removes the message.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);

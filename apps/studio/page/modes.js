@@ -52,7 +52,7 @@ export class Modes {
 
   toggleTable = () => this.setTable(!isPressed("#light-table"));
 
-  // Shows the model, or the settings of another snapshot, on the left of a divider, or ends that.
+  // Starts or ends a comparison: the left side of a divider shows the model or the relief of the snapshot `rival`.
   setComparing(isComparing, rival = null) {
     if (isComparing === isPressed("#compare") && rival === this.rival) return;
     this.rival = rival;

@@ -9,8 +9,8 @@ import {inWords} from "./pieces.js";
 
 const PREPARED = namesOf("input", "view", "model");
 
-// Returns whether the brightness of a photo becomes thickness. The engine then prepares the brightness instead of
-// heights.
+// Returns whether the scan is a photo whose brightness becomes the thickness of a lithophane. The engine then prepares
+// the brightness instead of heights.
 const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "lithophane" &&
   ["auto", "luminance"].includes(values) && /\.(png|tiff?|bmp|ppm|pgm)$/i.test(input?.name ?? "");
 
@@ -18,8 +18,8 @@ const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "
 export const viewOf = (step) => ({...Object.fromEntries(PREPARED.map((name) => [name, step.options[name]])),
   form: isPhoto(step) ? "lithophane" : "relief"});
 
-// Returns the options of a view for a document. The form is left out if the document's view has the same one; it can
-// differ only for photos.
+// Returns the options of a view for a document. Leaves out the form, unless the form of the document's own view
+// differs, which is possible only for photos.
 export const optionsOf = ({form, ...options}, now) => (form === viewOf(now).form ? options : {...options, form});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
@@ -30,7 +30,7 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun(former) when another document is shown, with the input of the former document or null;
+  // Calls on.begun(former) when another document is shown; `former` is the input of the former document, or null;
   // on.progress(status);
   // on.measured(status) when pictures of the first view can be drawn although it is not yet prepared;
   // on.arrived(status) when the model is ready;
@@ -53,9 +53,9 @@ export class OpenDocument {
     return this.model > 0;
   }
 
-  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. If the
-  // document has no stored state, the document takes over all steps of `work`; otherwise the step `at` is added to the
-  // stored ones.
+  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. If no
+  // state of the document is stored, it gets all steps of `work`. Otherwise only the step `at` is added to its stored
+  // steps.
   async open(input, work = null) {
     const found = await this.engine.find(input);
     if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
@@ -84,8 +84,8 @@ export class OpenDocument {
     if (status && this.id === id) this.take(status);
   }
 
-  // Requests the document's view. Waits until the engine has opened the document, as it would refuse the request
-  // before.
+  // Requests the document's view. First waits until the engine has opened the document, as it would refuse an earlier
+  // request.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);
@@ -144,7 +144,7 @@ export class OpenDocument {
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
   }
 
-  // Returns the view of the document. If its side is not chosen yet, it has the side that the engine chose.
+  // Returns the view of the document, with the side that the engine chose if the document leaves it open.
   wantedView = (requested) => withSide(viewOf(this.doc.now), requested);
 
   // Returns whether the model may be shown. The first model of a document must have the requested view, unless that
@@ -199,8 +199,8 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // Opens the document again. Must be called when the engine has closed it; the last status of the document is invalid
-  // then.
+  // Opens the document again. Must be called when the engine has closed it. Forgets the document's last status, which
+  // is no longer valid.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

@@ -1,12 +1,14 @@
-// The list of texts and borders in a document. It is the JSON of the option `ornaments`, so that projects have it inside.
-// Imports nothing, because transports use it, and other files wait for what a transport gets.
+// Reads the list of ornaments (texts, borders and drawings) of a document. The list is the JSON text of the option
+// `ornaments`, so projects contain it. This file imports no other file of the page: transports import it, and the other
+// files need the facts that a transport provides.
 
 const isPath = (source) => !/^(?:[{[]|$)/.test(source);
 
-// Returns the file that has the list, or "". The page cannot change such a list, only remove it.
+// Returns the path of the file with the list, which the page can remove but not change; "" if the option has the list.
 export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
 
-// Returns the text that a project or the command line gives by options of its own.
+// Returns the text that the options `text`, `font` and `text-...` describe, as a list of at most one ornament. Projects
+// and the command line may have these options instead of a list.
 function ownText({text, font, ...options}) {
   const own = Object.fromEntries(["arc", "size", "height", "inset"].map((key) => [key, options[`text-${key}`]]));
   return text ? [withoutEmpty({kind: "text", text, ...own, font})] : [];
@@ -18,11 +20,11 @@ function parsed(source) {
     const json = JSON.parse(source), list = Array.isArray(json) ? json : json.ornaments;
     return Array.isArray(list) ? list.filter((each) => each && typeof each === "object") : [];
   } catch {
-    return []; // the engine says what is wrong with it
+    return []; // the engine reports the error
   }
 }
 
-// Returns the ornaments of a document in the order in which the engine has them.
+// Returns the ornaments of a document in the engine's order.
 export const listOf = (options) => [...ownText(options), ...parsed(options.ornaments)];
 
 // Returns an ornament without the keys that have no value.

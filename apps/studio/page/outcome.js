@@ -1,4 +1,4 @@
-// Provides the document for files and projects, after all entries are settled and its picture is drawn.
+// Provides the document for exported files and projects, as soon as all entries are settled and its picture is drawn.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";
@@ -18,8 +18,8 @@ export class Outcome {
     await this.entries.settled();
   }
 
-  // Waits for the picture of the piece. Returns the options for its files. If the wanted height is out of reach, they
-  // have the height of the picture.
+  // Waits for the picture of the piece. Returns the options for the piece's files. If the wanted height is out of
+  // reach, these options have the height of the picture.
   async known() {
     await this.entered();
     const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), facts = this.facts();

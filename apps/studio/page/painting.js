@@ -1,9 +1,9 @@
-// A drag of the brush, which becomes a stroke of the document.
+// Turns one drag of the brush into a stroke of the document.
 
 import {clamp, oneAtATime} from "./controls.js";
 import {erased, simplified, strokesOf, textOf} from "./strokes.js";
 
-// `most` is the largest amount of a brush that the strength reaches.
+// `most` is the amount of a stroke at a strength of 100 %.
 export const KINDS = {
   soften: {label: "Soften", most: 1}, sharpen: {label: "Sharpen", most: 2}, strengthen: {label: "Strengthen", most: 2},
   raise: {label: "Raise", most: 0.3}, sink: {label: "Sink", most: 0.3}, level: {label: "Level", most: 1},
@@ -11,9 +11,9 @@ export const KINDS = {
   erase: {label: "Erase strokes"},
 };
 export const AREAS = {line: "Line", lasso: "Lasso", region: "Region"};
-const APART = 1 / 6, LEAST_APART = 2; // of places along a stroke, in radii and in pixels
-const TOLERANCE = 1 / 40; // by which a line may differ from the drawn one, in radii
-const DIGITS = 1e5; // points are rounded to this part of the longer side
+const APART = 1 / 6, LEAST_APART = 2; // least distance between positions along a stroke, in radii and in pixels
+const TOLERANCE = 1 / 40; // distance by which a simplified line may deviate from the drawn one, in radii
+const DIGITS = 1e5; // points are rounded to the figure's longer side divided by this
 
 // Returns a new name such as "Soften 2".
 function newName({label}, strokes) {
@@ -35,7 +35,7 @@ export class Painting {
     this.look = oneAtATime(() => this.lookUp());
   }
 
-  // Continues the stroke at a pixel, unless the last place is near. A region has only its first place.
+  // Continues the stroke at a pixel, unless that pixel is near the last one. A region has only its first position.
   follow(stage, [x, y], pressure) {
     if (this.last && this.settings.area === "region") return;
     const least = Math.max(LEAST_APART, APART * this.brush.radiusIn(stage));
@@ -47,7 +47,7 @@ export class Painting {
     this.look();
   }
 
-  // Finds the points of the model under the places that wait, and changes the document.
+  // Asks the engine for the points of the model under the new positions, and changes the document.
   async lookUp() {
     const places = this.waiting.splice(0), {isMirrored} = this.settings;
     const mirrored = isMirrored ? places.map(([u, v]) => [1 - u, v]) : [];
@@ -67,7 +67,7 @@ export class Painting {
     return this.settings.area === "lasso";
   }
 
-  // Returns a corner of a lasso at a place beside the model, as deep as its last corner; null for other strokes.
+  // Returns a lasso's corner at a position beside the model, with the last corner's depth; null for other strokes.
   pointBeside(place) {
     const last = this.lines[0].at(-1);
     return this.isLasso && last ? this.brush.pointAt(place, last) : null;
@@ -99,7 +99,7 @@ export class Painting {
       brush: kind, amount, radius, softness: softness / 100, ...own[area], points: cornersOf(line)}))];
   }
 
-  // Changes the document, unless another change came between.
+  // Writes the stroke into the document, unless the document has had another change meanwhile.
   show() {
     const isOther = this.isBegun ? this.doc.gesture !== this.id : this.doc.now.options.strokes !== textOf(this.before);
     if (isOther || this.document !== this.brush.engine.document) this.isGivenUp = true;

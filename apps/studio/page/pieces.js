@@ -47,8 +47,8 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns whether the user chose this width. Any width counts that is neither that of a new document nor that of a kind
-// of work.
+// Returns whether the user chose this width: whether it differs from the widths of a new document and of all kinds of
+// work.
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
@@ -74,7 +74,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Labels of options whose controls have a different label or none.
+// Labels for messages, for options whose controls have a different label or none.
 const OTHERS = {tone: "Tone curve", view: "View", text: "Letters", ornaments: "Letters"};
 // Descriptions of the values of an option, for messages.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
@@ -142,7 +142,7 @@ export class PieceRows {
     const element = pair(label, input, {title: sentence(help)});
     const rest = new Pause(() => input.dispatchEvent(new Event("change")), GESTURE_END_MS);
     input.onchange = () => this.take(name);
-    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // the user is typing after using the arrow keys
+    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // typing ends the movement by arrow keys
     input.onkeydown = (event) => {
       if (event.key === "Escape") rest.end(), this.show();
       if (event.key in UPWARDS) this.step(event, name);
@@ -186,7 +186,7 @@ export class PieceRows {
     return this.entries.add({name, label: LABELS[name], part, isTried: true, isMade});
   }
 
-  // Takes the numbers that arrow keys have changed at once, without waiting for the pause.
+  // Takes at once the numbers that arrow keys have changed, without waiting for the pause.
   takeSteps() {
     for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }

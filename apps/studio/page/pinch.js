@@ -1,6 +1,6 @@
 // Two fingers on the relief move the picture and zoom. With the tool Place they scale and turn the figure.
 
-const SLACK = 8; // angle in degrees by which two fingers may turn while they only scale
+const SLACK = 8; // two fingers that turn by less than this angle in degrees only scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 

@@ -46,7 +46,7 @@ export class Placing {
   scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
     if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
-    this.setWidth(clamp(width * factor, LEAST, MOST)); // belongs to the same gesture
+    this.setWidth(clamp(width * factor, LEAST, MOST)); // is undone together with the change above
   }
 
   // Turns the figure in the picture by degrees, counterclockwise if positive.

@@ -94,8 +94,8 @@ export class Projects {
       () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
-  // Saves the step that the promise `promised` gives as a project file. First asks whether to include the scan, if it
-  // can be included. A sample is never included, but the fonts and drawings of its ornaments are.
+  // Saves the step to which the promise `promised` resolves as a project file. First asks whether to include the scan,
+  // if that is possible. A sample is never included, but the fonts and drawings of its ornaments are.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {
       try {

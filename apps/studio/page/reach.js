@@ -42,7 +42,7 @@ export class Reach {
     try {
       this.reach = await this.answer;
     } catch {
-      return turn === this.turn ? this.clear() : undefined; // another view is being prepared
+      return turn === this.turn ? this.clear() : undefined; // e.g. another view is being prepared
     }
     if (turn !== this.turn) return;
     // With a draft angle the picture may be too high, because it does not wait until the largest height under that

@@ -17,7 +17,7 @@ export const numbersOf = (crop) => WHOLE.map((otherwise, i) => {
   return number ? Number(number) : otherwise;
 });
 
-// Returns a crop as the text of the option; "" for the whole scan.
+// Returns the numbers of a crop as the text of the option `crop`; "" for the whole scan.
 export function cropText(numbers) {
   const short = numbers.map((x) => Number(x.toFixed(3))), isDeep = short[4] !== 0 || short[5] !== 1;
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
@@ -27,9 +27,9 @@ export function cropText(numbers) {
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
   "denoise 0": "Keep the noise", "doubtful keep": "Keep them"};
 
-const DOUBTFUL = "; --doubtful keep keeps them"; // the end of a remark, for the command line
+const DOUBTFUL = "; --doubtful keep keeps them"; // end of a remark: advice for users of the command line
 
-// Returns a remark on points that the file marks as doubtful without its advice, and with the option that keeps them.
+// In a remark on points that the file marks as doubtful, replaces the advice by the option that keeps them.
 const withOption = (note) => (!note.text.includes(DOUBTFUL) ? note
   : {...note, text: note.text.replace(DOUBTFUL, ""), option: "doubtful", value: "keep"});
 
@@ -120,7 +120,7 @@ export class ScanPanel {
   show() {
     const {crop, crumbs, plane, doubtful, denoise} = this.doc.now.options;
     const key = [crop, crumbs, plane, doubtful, denoise, this.facts?.noise].join();
-    if (key === this.shown) return; // this method runs for each event of a drag
+    if (key === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     if (!isUnfinished($("#crop"))) $("#crop").value = crop;

@@ -1,6 +1,6 @@
-// Keeps the view of the shown model, and waits for a requested view. When no request is left, the document, the engine
-// and the picture have the same view, even after other tabs have requested views, or requests were cancelled or
-// refused.
+// Keeps the view of the shown model while another view is requested. When no request is left, the document, the engine
+// and the picture have the same view. This holds even if other tabs have requested views, or if requests were cancelled
+// or refused.
 
 import {isSameView, optionsOf, viewOf} from "./opening.js";
 

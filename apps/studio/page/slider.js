@@ -16,8 +16,8 @@ export const GESTURE_END_MS = 400; // pause after which a movement by keys or th
 export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
 const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
-// Returns the next multiple of a step in the given direction. The step is a tenth of the largest power of ten up to the
-// value, and at least `least`. With `isFine` it is ten times smaller.
+// Returns the next multiple of a step in the given direction. The step is a tenth of the largest power of ten that does
+// not exceed the value, and at least `least`. With `isFine` it is ten times smaller.
 export function nextValue(value, direction, isFine, least) {
   const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // below 10 the step is 0.1
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);

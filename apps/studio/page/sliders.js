@@ -1,5 +1,5 @@
-// The sliders of the page, as listed in fields.js, with the button that locks the height and the menu of methods. They
-// show the values of the document and change them. slider.js has the class of a single slider.
+// Makes the page's sliders, as listed in fields.js, the button that locks the height, and the menu of methods. These
+// show and change the values of the document. slider.js has the class of a single slider.
 
 import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";

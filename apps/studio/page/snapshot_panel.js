@@ -1,4 +1,4 @@
-// The panel of snapshots: takes one of the settings, lists them, and applies, compares, renames and removes them.
+// Shows the panel that takes snapshots of the settings, lists them, and applies, compares, renames and removes them.
 
 import {$, make, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
@@ -35,7 +35,7 @@ export class SnapshotPanel {
     if (isCompared) this.modes.setComparing(true, this.list[at]);
   }
 
-  // Shows the snapshot beside the present settings, or ends that.
+  // Starts or ends the comparison of the snapshot with the present settings.
   compare(at) {
     const snapshot = this.list[at], isCompared = this.modes.rival === snapshot;
     this.modes.setComparing(!isCompared, isCompared ? null : snapshot);
@@ -66,8 +66,8 @@ export class SnapshotPanel {
     return {field, compare, remove, element: make("li", {}, field, remove, apply, compare)};
   }
 
-  // Shows which snapshot is compared, and ends the comparison with one that is gone or has another view: the engine has
-  // one view at a time.
+  // Shows which snapshot is compared. Ends the comparison with a snapshot that was removed or has another view, since
+  // the engine can show only one view at a time.
   mark() {
     const view = viewOf(this.doc.now), {rival} = this.modes;
     const hasView = (snapshot) => isSameView(viewOf(this.stepOf(snapshot)), view);

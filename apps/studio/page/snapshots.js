@@ -1,5 +1,5 @@
-// Snapshots are settings that the user has named: all of a step of the document except its scan. A step has the list of
-// those that were taken so far, and of a snapshot's options those that a new document does not have.
+// Makes and packs snapshots: settings that the user has named. A snapshot contains all parts of a document's step
+// except the scan and the list of snapshots. Of the options, it contains only those that differ from a new document.
 
 import {FIRST, studioPart} from "./document.js";
 import {packed, unpacked} from "./strokes.js";
@@ -12,7 +12,7 @@ export function snapshotOf({input: _input, snapshots: _snapshots, options: all, 
   return {name, ...rest, options};
 }
 
-// Returns the change of a step to the settings of a snapshot.
+// Returns the changes that give a step the settings of a snapshot.
 export const partOfSnapshot = ({name: _name, options, ...rest}) =>
   ({...rest, options: {...FIRST.options, ...options}});
 
@@ -24,8 +24,8 @@ export function freeName(snapshots) {
   return `Snapshot ${number}`;
 }
 
-// Returns the snapshots of a project file. Leaves out what is none, options that this version does not know, and values
-// of another type.
+// Returns the valid snapshots of a project file. Leaves out options that this version does not know, and options whose
+// value has a wrong type.
 export function snapshotsIn(list) {
   const isLike = (value, known) => value === null || known === null || typeof value === typeof known;
   const isSnapshot = (each) => typeof each?.name === "string" && each.options && typeof each.options === "object";
@@ -35,8 +35,8 @@ export function snapshotsIn(list) {
     name.slice(0, 80)));
 }
 
-// Steps of a document share their lists of snapshots, lists share snapshots, and all share strokes. Returns steps that
-// have the number of their list, with the lists of numbers of snapshots, and the snapshots.
+// Packs steps so that what they share is stored only once: lists of snapshots, snapshots, and strokes. In the result,
+// a step has the index of its list in `lists`, and a list has indices into `snapshots`.
 export function packedSteps(steps) {
   const lists = [...new Set(steps.map(({snapshots}) => snapshots))], all = [...new Set(lists.flat())];
   const {steps: each, ...strokes} = packed([...steps, ...all]);
@@ -46,7 +46,7 @@ export function packedSteps(steps) {
     ...strokes};
 }
 
-// Returns the steps that were packed. Those of a project file were not, and stay as they are.
+// Unpacks the steps that packedSteps() packed. The steps of a project file are not packed, and stay as they are.
 export function unpackedSteps({steps, lists = [], snapshots = [], strokes}) {
   const whole = (step) => ({...step, options: unpacked(step.options ?? {}, strokes)});
   const all = snapshots.map(whole), taken = lists.map((list) => list.map((number) => all[number]).filter(Boolean));

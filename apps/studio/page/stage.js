@@ -1,5 +1,5 @@
-// The stage shows the relief in the middle of the page: it requests pictures from the engine, and lets the user turn,
-// light and section the relief by mouse and keys.
+// Shows the relief in the middle of the page: requests pictures from the engine, and lets the user turn, light and
+// section the relief by mouse and keys.
 
 import {Comparing} from "./comparing.js";
 import {$, Pause, clamp, make, paint} from "./controls.js";
@@ -26,7 +26,7 @@ export class Stage {
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
-    this.share = 1; // fraction of the pixels along each side that is drawn while the picture keeps changing
+    this.share = 1; // while the picture keeps changing, its width and height in pixels are multiplied by this factor
     // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` that of the last
     // state that was drawn. The other three are numbers of the last state for which a picture was drawn or has failed:
     // `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which shows the
@@ -113,7 +113,7 @@ export class Stage {
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
-      else if (isLast) this.changedAt = performance.now(); // another tab has cancelled it: try again after a pause
+      else if (isLast) this.changedAt = performance.now(); // another tab cancelled the picture: try again after a pause
     } catch (error) {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
@@ -150,21 +150,21 @@ export class Stage {
     return asked;
   }
 
-  // Requests the next picture before the one that was asked for is shown, if the picture keeps changing.
+  // Requests the next picture before the requested one is shown, if the picture keeps changing.
   askAhead({isFine, number}) {
     if (isFine || this.ahead || number === this.wanted || this.isTable || this.waitsForPicture) return;
     this.ahead = this.ask(false, false);
-    this.ahead.picture.catch(() => {}); // reported when this picture is drawn
+    this.ahead.picture.catch(() => {}); // drawRelief() reports the error
   }
 
   // Returns a picture of the newest state. Its facts also have the document's options and `isTurned`: whether it shows
-  // the turned relief of a view that is not prepared yet. Such a relief has another size.
+  // the turned relief of a view that is not prepared yet.
   async requestPicture(request, calling) {
     const {options} = this.doc.now, {image, facts} = await this.engine.picture(request, calling);
     return {image, facts: {...facts, options, isTurned: Boolean(request.turned)}};
   }
 
-  // Draws the relief that was asked for.
+  // Draws the picture that ask() has requested.
   async drawRelief(asked) {
     const {model, changedAt, isFine, isLast, picture} = asked;
     this.drawing = asked;
@@ -271,7 +271,7 @@ export class Stage {
   listen() {
     const stage = this.element;
     stage.onpointerdown = (event) => this.press(event);
-    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // e.g. a palm while a pen draws
     stage.onpointermove = (event) => (!this.drag ? this.hover(event) : isOther(event) || this.move(event));
     stage.onpointerleave = () => {
       if (this.tool === "measure") this.measure.point(null);
@@ -319,7 +319,7 @@ export class Stage {
     this.drag = this.sun = null;
     TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
-    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture when all points of it are found
+    if (drag?.tool !== "brush") this.doc.endGesture(); // the brush ends its gesture when all its points are found
     this.drawOverlay();
   }
 
@@ -341,7 +341,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Undoes the changes of the running drag, and ignores the rest of it. Returns whether there were any changes.
+  // Undoes the changes of the running drag, and ignores the rest of the drag. Returns whether there were any changes.
   takeBack() {
     const isEnded = ["turn", "place"].includes(this.drag?.tool);
     if (isEnded) {

@@ -16,7 +16,7 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-export const START = "#start"; // ends an address of the page that shows the start page first
+export const START = "#start"; // if the address of the page ends in this, it first shows the start page
 
 // Shows the thumbnail of a document, or an icon if it has none. Returns the image element.
 function showThumbnail(image, thumbnail) {
@@ -35,7 +35,7 @@ export class Shelf {
     const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
     const names = recent.map(({document, is_there: isThere}) => `${document} ${isThere}`).join();
-    if (names === this.names) // a card that is replaced while the mouse button is down gets no click
+    if (names === this.names) // keeps the cards: one that is replaced while the mouse button is down gets no click
       recent.forEach(({thumbnail}, i) => showThumbnail($("#recent").children[i].querySelector("img"), thumbnail));
     else
       $("#recent").replaceChildren();
@@ -65,7 +65,7 @@ export class Shelf {
   // Removes a document. If it is the shown one, loads the page again without it.
   async remove(document) {
     const {engine, opened, keeper} = this, isShown = document === opened.id;
-    if (isShown) opened.id = ""; // prevents that it is stored again
+    if (isShown) opened.id = ""; // so that the document is not stored again
     try {
       await engine.remove(document);
     } catch (error) {
@@ -80,7 +80,7 @@ export class Shelf {
   }
 }
 
-// Returns a text that says how much is stored, and for how long.
+// Returns a text for users about the amount of stored documents, and about how long they are stored.
 function inTotal({documents, bytes}, shown) {
   if (documents === 0) return "";
   const scans = documents === 1 ? "1 scan" : `${documents} scans`;

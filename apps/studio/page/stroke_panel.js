@@ -1,5 +1,5 @@
-// Lists the strokes of the brush: each can be named, muted and removed. The one under the pointer or with the focus is
-// marked on the picture.
+// Lists the strokes of the brush. Each stroke can be named, muted and removed. A stroke whose row is under the pointer
+// or has the focus is highlighted on the picture.
 
 import {$, make, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
@@ -22,7 +22,7 @@ export class StrokePanel {
     if (focused) this.focus(focused);
   }
 
-  // Moves the focus to a control, or to that of the last row.
+  // Moves the focus to a control or, if it no longer exists, to the same control of the last row.
   focus(control) {
     const [kind] = control.split(" "), alike = [...this.list.querySelectorAll(`[data-control^="${kind}"]`)];
     ($(`[data-control="${control}"]`, this.list) ?? alike.at(-1) ?? $("#stage")).focus();

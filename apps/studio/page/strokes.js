@@ -1,11 +1,11 @@
-// Strokes of a brush as plain data: the value of the option `strokes` is their JSON. Points are in the coordinates of
-// the scan.
+// Reads, simplifies, erases and packs strokes of a brush. They are plain data: the value of the option `strokes` is
+// their JSON. Points are in the coordinates of the scan.
 
 const sub = (a, b) => a.map((x, i) => x - b[i]), dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 const along = (a, b, t) => a.map((x, i) => x + t * (b[i] - x));
 const apart = (a, b) => Math.hypot(...sub(a, b));
 
-// Returns the strokes of a step. A text that is no list of strokes, which the engine refuses, counts as none.
+// Returns the strokes of a step. Returns none for a text that is not a list of strokes; the engine refuses that text.
 export function strokesOf({options: {strokes: text}}) {
   try {
     const strokes = JSON.parse(text || "[]");
@@ -23,7 +23,7 @@ function distanceToLine(p, a, b) {
   return apart(p, along(a, b, t));
 }
 
-// Returns the corners of a line that is nowhere further than the tolerance from the given one (Douglas and Peucker).
+// Simplifies a line by the algorithm of Douglas and Peucker. The result deviates from the line by at most `tolerance`.
 export function simplified(points, tolerance) {
   const first = points[0], last = points.at(-1);
   let most = 0, at = 0;
@@ -36,7 +36,8 @@ export function simplified(points, tolerance) {
   return points.length > 1 ? [first, last] : [first];
 }
 
-// Returns the two shares of a segment between which it is within the radius of a point; null if it is nowhere.
+// Returns the two positions, as shares of the way from a to b, between which the line through a and b is within the
+// radius of a point. Returns null if no part of the segment from a to b is within the radius.
 function within(a, b, point, radius) {
   const line = sub(b, a), from = sub(a, point);
   const square = dot(line, line), half = dot(from, line), rest = dot(from, from) - radius * radius;
@@ -64,8 +65,8 @@ function partsOutside(points, point, radius) {
   return parts;
 }
 
-// Returns the strokes without the parts of their lines within the radius of a point. What is left of a line that was
-// cut in two is two strokes. A lasso or region is erased as a whole, at its edge or its point.
+// Erases the parts of strokes within the radius of a point. A line that is cut in the middle becomes two strokes. A
+// lasso is erased as a whole if its edge is within the radius, a region if its point is.
 export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   const {area = "line", points: [first]} = stroke, isLine = area === "line";
   const outline = area === "lasso" ? [...stroke.points, first] : stroke.points;
@@ -75,7 +76,7 @@ export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   return parts.map((points, i) => ({...stroke, ...(i > 0 && {name: `${stroke.name}, part ${i + 1}`}), points}));
 });
 
-// Steps of a document share most of their strokes. Returns the steps with numbers in place of strokes, and the strokes.
+// Packs steps so that shared strokes are stored once. Returns steps with indices in place of strokes, and the strokes.
 export function packed(steps) {
   const strokes = [], numbers = new Map();
   const numberOf = (stroke) => {
@@ -90,6 +91,6 @@ export function packed(steps) {
   return {steps: steps.map(pack), ...(strokes.length > 0 && {strokes})};
 }
 
-// Returns the options of a step that was packed with these strokes.
+// Unpacks the options of a step that packed() packed together with these strokes.
 export const unpacked = (options, strokes = []) => (Array.isArray(options.strokes)
   ? {...options, strokes: textOf(options.strokes.map((number) => strokes[number]).filter(Boolean))} : options);

@@ -1,7 +1,7 @@
-// The tools of the picture, with their functions for drags and arrow keys. A tool has
+// Lists the tools of the picture, with their functions for drags and keys. A tool has
 //   does                    description of a drag, for the label of the picture
-//   isLevel                 whether the tool shows the relief from the front
-//   isStepwise              whether move() gets the movement since the last event
+//   isLevel                 whether choosing the tool turns the relief to the front view
+//   isStepwise              whether move() gets the movement since the last event, not since the start of the drag
 //   press(stage, event)     called when a drag begins
 //   move(stage, to)         called during a drag; `to` is {x, y, dx, dy, event}: the pointer's position and movement
 //   release(stage, drag)    called when a drag has ended

@@ -2,7 +2,7 @@
 
 import {CANCELLED, EngineError, cancelled} from "./engine.js";
 
-const ASK = "status?"; // message of a new tab to the tab that has the stream
+const ASK = "status?"; // message of a new tab to the tab that has the stream of events
 
 async function errorIn(response) {
   try {
@@ -52,7 +52,7 @@ export class Transport {
     tabs.onmessage = ({data}) => data !== ASK && take(data);
     tabs.postMessage(ASK);
     navigator.locks.request(location.pathname, () => {
-      const last = new Map(); // the last status of each document, and the name of the run under `undefined`
+      const last = new Map(); // the last status of each document; the key `undefined` has the name of the run
       const pass = (status) => {
         if (!status || !status.document) last.clear();
         if (status) last.set(status.document, status);
@@ -65,7 +65,8 @@ export class Transport {
     });
   }
 
-  // A stream that breaks reconnects by itself. A stream that was refused does not, so it is opened again.
+  // Opens the stream of events. The browser itself reconnects a stream that breaks, but not one that was refused, which
+  // is therefore opened again here.
   listen(pass) {
     const source = new EventSource("api/events");
     source.onmessage = (event) => pass(JSON.parse(event.data));

@@ -7,8 +7,8 @@ import {cross, dot, upright} from "./vectors.js";
 const NEAR = Math.cos(6 * Math.PI / 180); // a view within 6 degrees of a side or of level snaps to it
 const HALF_TURN = 0.9; // drag length for half a turn, as a fraction of the picture's shorter side
 
-// Returns the nearest side if the view is close to it. Otherwise returns the view, without its roll if the roll is
-// small.
+// Returns the nearest side if the view is close to that side. Otherwise returns the view itself, levelled if its roll
+// is small.
 function snapped({towards, up}) {
   for (const side of Object.values(SIDES)) {
     if (dot(side.towards, towards) < NEAR) continue;
@@ -61,8 +61,8 @@ export class Turning {
     this.end();
   }
 
-  // Sets the document's view to the last view of the turn. If the document has this view already, requests it again if
-  // another view is being prepared.
+  // Sets the document's view to the last view of the turn. If the document already has this view, but another view is
+  // being prepared, requests the document's view again.
   end() {
     const {stage} = this, {doc} = stage;
     if (!this.shown) return;

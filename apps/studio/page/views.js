@@ -28,7 +28,7 @@ export class ViewDialog {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
     const key = isThere && directions ? JSON.stringify([directions, input]) : "";
-    if (key === this.told) return; // this method runs for each event of a drag
+    if (key === this.told) return; // nothing has changed; this method runs for each event of a drag
     this.told = key;
     picture.hidden = true;
     if (!key) return;

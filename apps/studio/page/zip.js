@@ -17,7 +17,7 @@ const packed = (numbers) =>
   Uint8Array.from(numbers.flatMap(([number, size]) => Array.from({length: size}, (_, i) => number / 256 ** i & 255)));
 
 const LOCAL = 0x04034b50, CENTRAL = 0x02014b50, END = 0x06054b50; // signatures of the records of a ZIP file
-const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // the date of every file is 1 January 1980
+const VERSION = 20, UTF8 = 1 << 11, FIRST_DAY = 33; // FIRST_DAY: all files are dated 1 January 1980
 
 // Returns an archive of the files, which together must be smaller than 4 GiB.
 export async function zipOf(files, name) {

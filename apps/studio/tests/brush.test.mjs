@@ -15,7 +15,7 @@ withPage("shell", 12000, async () => {
   await choose("Brush");
 });
 
-// Keeps the newest request for a picture. Firefox's driver does not report the bodies of requests, so the page does.
+// Stores each request for a picture in `sent`. The page reports them, since Firefox's driver does not report bodies.
 async function listen(of) {
   await of.exposeFunction("tellRequest", (body) => (sent = JSON.parse(body)));
   const tell = () => {
@@ -59,7 +59,7 @@ async function drawUntil(count, ...drawing) {
 const profile = async (from, to, options = sent.options) =>
   (await engine.json("profile", {...sent, options, from, to})).heights_mm;
 
-// Returns the heights in mm without and with the strokes, along a line.
+// Returns pairs of heights in mm along a line: without and with the strokes.
 async function both(from, to) {
   const {strokes, ...plain} = sent.options;
   assert.ok(strokes);
@@ -81,7 +81,7 @@ test("changes the relief where the mouse goes, and nowhere else", async () => {
     const [{points, radius, brush: told}] = strokes(), {options: {height}} = sent;
     assert.equal(told, brush);
     assert.ok(points.length > 1 && radius > 0);
-    // A stroke that moves the highest point scales the whole relief, which keeps its height.
+    // The whole relief keeps its height. So a stroke that moves the highest point scales the rest of the relief.
     const far = await both([-40, 12], [40, 12]), sum = (part) => far.reduce((sum, pair) => sum + pair[part], 0);
     const scale = sum(1) / sum(0), changes = (pairs) => pairs.map(([before, after]) => after - scale * before);
     assert.ok(Math.abs(scale - 1) < 0.01, `${brush}: ${scale}`);
@@ -99,7 +99,7 @@ test("changes the relief where the mouse goes, and nowhere else", async () => {
   }
 });
 
-// Returns the scale of the picture: the brush has the diameter of 10 mm that its size gives on a relief of 100 mm.
+// Returns the scale of the picture in pixels per mm. On this relief the radius of the brush is 5 mm.
 const pixelsPerMm = async () => Number(await page.locator("#overlay .brush").first().getAttribute("r")) / 5;
 
 test("shows the stroke while it is drawn, in one step of undo", async () => {
@@ -144,8 +144,8 @@ test("lists strokes, which can be named, muted and removed by keys", async () =>
   const line = page.locator("#overlay path.stroke");
   await labelled("Name of cheek").hover();
   const [[from, middle], [to]] = [await pixel(0.45, 0.6), await pixel(0.5, 0.6)];
-  await soon.ok(async () => { // the page draws its marks anew with each picture, and what it replaces has no place
-    const off = await line.evaluate((path, [from, to, middle]) => { // Firefox's rectangle has the line's width, too
+  await soon.ok(async () => { // repeated, since each picture replaces the marks, and a replaced mark has no position
+    const off = await line.evaluate((path, [from, to, middle]) => { // Firefox's rectangle includes the line's width
       const {x, y, width, height} = path.getBBox(), stage = document.querySelector("#stage").getBoundingClientRect();
       return [stage.x + x - from, stage.x + x + width - to, stage.y + y + height / 2 - middle];
     }, [from, to, middle]);
@@ -177,7 +177,7 @@ test("exports the very bytes that make writes from the saved project", async () 
   await drawUntil(2, "sharpen", [0.5, 0.6]);
   await untilTaken();
   const project = path.join(folder, "painted.relievo"), made = path.join(folder, "made.stl");
-  const saved = await page.evaluate(async (path) => { // what "Settings alone" saves
+  const saved = await page.evaluate(async (path) => { // returns the project that "Settings alone" saves
     const {Document, projectOf} = await import(new URL("document.js", location)), doc = new Document(() => {});
     const {engine} = await import(new URL("about.js", location));
     doc.restore((await engine.find({path})).kept);
@@ -241,7 +241,7 @@ test("draws lassos and regions by keys", async () => {
   await stage.focus();
   await page.keyboard.press("Space");
   await untilStrokes(2);
-  await page.keyboard.press("ArrowUp"); // the region is finished already
+  await page.keyboard.press("ArrowUp"); // changes nothing, as the region is finished already
   await untilReady(page);
   assert.deepEqual(strokes().map(({points, area}) => area === "region" ? points.length : area), ["lasso", 1]);
   await shape().selectOption("line");

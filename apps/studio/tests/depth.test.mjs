@@ -102,7 +102,7 @@ test("takes the depth of the picture in its widths, where that has an effect", a
   const project = await savedProject();
   assert.equal(JSON.parse(readFileSync(project, "utf8")).options["depth-range"], 0.1);
   assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
-  await row("depth-values").selectOption("inverse"); // has a camera of its own
+  await row("depth-values").selectOption("inverse"); // a camera is assumed for inverse depths
   await soon.ok(async () => await row("depth-range").isHidden());
   await untilReady(page);
   await undo(2);
@@ -112,8 +112,8 @@ test("takes the depth of the picture in its widths, where that has an effect", a
 
 test("reads depths by the camera that is entered, and so does make with the project", async () => {
   await enter(row("camera"), "100,100,59.5,44.5");
-  await soon.match(() => panel().innerText(), /All pixels are used/); // a camera keeps what is behind the figure
-  await soon.ok(async () => await row("depth-range").isHidden()); // its depths are exact
+  await soon.match(() => panel().innerText(), /All pixels are used/); // with a camera, the background is kept
+  await soon.ok(async () => await row("depth-range").isHidden()); // with a camera, depths are exact
   await untilReady(page);
   const project = await savedProject();
   assert.equal(JSON.parse(readFileSync(project, "utf8")).options.camera, "100,100,59.5,44.5");
@@ -179,7 +179,7 @@ test("makes a lithophane of a photo pixel by pixel, as the command line does", a
 });
 
 test("takes a photo that only the browser can read", async () => {
-  const jpeg = await page.evaluate(() => { // left black, right white
+  const jpeg = await page.evaluate(() => { // its left half is black, its right half white
     const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
     canvas.width = canvas.height = 64;
     context.fillRect(0, 0, 64, 64);

@@ -54,7 +54,7 @@ test("keeps a document for each scan, and the newer state of each", async () => 
 test("neither replaces a document that it cannot read, nor removes a scan then", async () => {
   let other = await studioIn("unread");
   const input = await dropped(other, "b.xyz", "0 0 0\n"), {document} = await other.json("document", {input});
-  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // unreadable: a folder
+  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // no file: unreadable
   const told = await other.post("document", {input}), kept = await keep(other, document, stateOf(input, 1, 1));
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);
@@ -136,7 +136,7 @@ async function killAtRandom(place, times) {
     await dragging;
     const kept = JSON.parse(readFileSync(file, "utf8")); // the file is complete whenever the engine is killed
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
-    while (page.keeper.isSending) await sleep(5); // then the engine or the browser has the newest change
+    while (page.keeper.isSending) await sleep(5); // after this, the engine or the browser has the newest change
     const copy = JSON.parse(storage.getItem(document) ?? "{}");
     assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // engine and page together lose nothing
   }
@@ -153,8 +153,8 @@ test("loses nothing that it has confirmed when it is killed, at 50 moments, and 
   await Promise.all(places.map((place) => killAtRandom(place, 10)));
 });
 
-// Simulates a drag, with a clock that the test sets and an engine that takes `answerMs` to answer. Returns the longest
-// time in ms during which a change was not sent, and the number of requests.
+// Simulates a drag with a simulated clock and an engine that takes `answerMs` to answer. Returns the longest time in ms
+// during which a change was not sent, and the number of requests.
 async function paceOfDrag(durationMs, answerMs) {
   const own = globalThis.setTimeout, storage = new MapStorage(), waiting = [];
   const due = () => waiting.filter(({at}) => at <= clock);
@@ -184,8 +184,8 @@ async function paceOfDrag(durationMs, answerMs) {
   return {longest, times};
 }
 
-// An engine that is killed loses at most the changes of the last 100 ms, or those since its last answer if that took
-// longer.
+// An engine that is killed loses at most the changes of the last 100 ms or, if its last answer took longer, the changes
+// since that answer.
 test("sends what a drag changes every 60 ms, so that 100 ms are lost at most", async () => {
   for (const answerMs of [0, 10, 30]) {
     const {longest, times} = await paceOfDrag(3000, answerMs);

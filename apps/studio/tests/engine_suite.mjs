@@ -11,8 +11,8 @@ export let engine;
 export const OPTIONS = {width: 60, height: 2, view: "front"};
 export const PICTURE = {options: OPTIONS, width: 200, height: 150};
 
-// Gives the suite an engine and a scan, which is a sample of `points` points. `begin` prepares everything else for the
-// tests; by default it opens the scan.
+// Gives the suite an engine and a scan, which is a sample of `points` points. begin() prepares everything else that the
+// tests need; by default it opens the scan.
 export function withEngine(sample, points, begin = () => engine.open({path: scan})) {
   before(async () => {
     writeSample(sample, points, scan);
@@ -31,7 +31,7 @@ export function connect() {
   return socket;
 }
 
-// Returns the first line of a request and its header Host.
+// Returns the first line and the header Host of an HTTP request.
 export const head = (place, method = "POST", {pathname, host} = engine.url) =>
   `${method} ${pathname}${place} HTTP/1.1\r\nHost: ${host}\r\n`;
 

@@ -64,7 +64,7 @@ for (const [how, press] of Object.entries({
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
-    await type(option("height"), "1.25"); // height is the number beside a slider
+    await type(option("height"), "1.25"); // unlike the diameter, the height has a slider beside its field
     await press();
     await page.locator("#export-size").getByText(/triangles$/).waitFor();
     await soon.match(() => page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
@@ -169,7 +169,7 @@ test("keeps a height that is typed while the picture of the one before is drawn,
   await letGo();
   assert.equal((await next).postDataJSON().options.height, 4);
   await untilReady(page);
-  assert.ok(Math.abs((await value("height")) - 4) < 0.2); // it was 3.2; without a lock it is only roughly kept
+  assert.ok(Math.abs((await value("height")) - 4) < 0.2); // before it was 3.2; without a lock 4 is only met roughly
   assert.match(await option("height").inputValue(), /^\d+\.\d\d$/);
   await free();
 });

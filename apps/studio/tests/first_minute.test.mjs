@@ -29,7 +29,7 @@ async function openScan(file, points, of = page) {
   await untilReady(of);
 }
 
-// Returns the number of non-empty pixels and the sum of their colours, for the picture of each kind of work.
+// Returns, for the picture of each kind of work, the number of opaque pixels and a weighted sum of all colours.
 const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.map((canvas) => {
   const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
   let shown = 0, sum = 0;
@@ -407,8 +407,8 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await untilReady(page);
 });
 
-// The engine refuses to prepare a view before the document is open, and the page only knows from the engine's answer
-// that it is open.
+// The engine refuses to prepare a view before the document is open. The page knows that the document is open only when
+// the engine has answered.
 test("takes what is changed while a scan is still opening", async () => {
   const other = await page.context().newPage(), answers = [];
   other.on("response", (response) => answers.push(response.status()));
@@ -517,7 +517,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // 2.465 radii by 2 radii, plus the margins
+  await untilWide(1.15, 1.25); // both balls: 2.465 by 2 radii of the larger one, plus the margins
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();

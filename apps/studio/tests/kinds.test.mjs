@@ -48,7 +48,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await page.getByRole("heading", {name: "Die of the coin"}).waitFor();
   await untilReady(page);
   const die = await exported();
-  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // all but the form
+  await eventually(async () => assert.deepEqual({...(await kept()), form: before.form}, before)); // only form differs
   await soon.equal(async () => (await kept()).form, "die");
   assert.deepEqual([coin.name, die.name], ["scan-coin.stl", "scan-die.stl"]);
   await page.getByText(`The die itself is ${die.told.join(" × ")} mm.`).waitFor();
@@ -68,7 +68,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await soon.ok(() => radio("Plaque").isChecked());
 });
 
-// Returns those options of a document on which heights depend.
+// Returns the options of a document on which the heights depend, with a fine resolution.
 const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness, margin}) =>
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 

@@ -16,7 +16,7 @@ withPage("still_life", 5000, async () => {
 const list = async () => JSON.parse((await engine.newestStep(scan)).options.ornaments || '{"ornaments":[]}').ornaments;
 const note = () => page.locator("#ornaments-note");
 
-// The font inside the program: a text has the same outlines in this file.
+// The file of the font that is built into the program. A text has the same outlines with either.
 const FONT = readFileSync(new URL("../../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url));
 const SQUARE = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10v10h-10z"/></svg>';
 
@@ -79,22 +79,22 @@ test("sets a text in a font by file and adds a drawing, which are in the saved p
   await soon.match(async () => (await list())[1].file, /\/crest\.svg$/);
   await enter(labelled("Size"), "4");
   await page.getByRole("button", {name: /^Move crest/}).focus();
-  for (let i = 0; i < 24; ++i) await page.keyboard.press("ArrowLeft"); // beside the text
+  for (let i = 0; i < 24; ++i) await page.keyboard.press("ArrowLeft"); // moves the drawing away from the text
   await soon.equal(() => note().textContent(), "");
   await untilReady(page);
   const {bytes: with_drawing} = await exported();
   assert.ok(!with_drawing.equals(before));
   const project = path.join(folder, "files.relievo"), made = path.join(folder, "files.stl");
   writeFileSync(project, await savedProject());
-  for (const {font, file} of await list()) // make must not need the studio's copies
+  for (const {font, file} of await list()) // `make` must not need the studio's copies of the files
     rmSync(path.dirname(font ?? file), {recursive: true});
   run("make", project, "-o", made);
   assert.ok(readFileSync(made).equals(with_drawing), "the bytes differ");
   await enter(labelled("Size"), "4.5");
   await note().getByText(/own\.ttf: expected a file that can be read/).waitFor();
-  await untilReady(page); // the picture goes on without them
-  await page.locator("#file").setInputFiles(project); // brings the files back
-  await soon.equal(() => button("crest.svg").getAttribute("aria-expanded"), "false"); // in the document that opens
+  await untilReady(page); // pictures are drawn without the missing files
+  await page.locator("#file").setInputFiles(project); // the project contains the files
+  await soon.equal(() => button("crest.svg").getAttribute("aria-expanded"), "false"); // the project is open now
   await button("crest.svg").click();
   await soon.equal(() => labelled("Size").inputValue(), "4");
   await soon.equal(() => note().textContent(), "");

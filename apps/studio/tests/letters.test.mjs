@@ -1,4 +1,4 @@
-// Tests the panel of letters and borders, the outlines and the handle on the picture, and the bytes of their files.
+// Tests the panel of letters and borders, the outlines and the handle on the picture, and the bytes of exported files.
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
@@ -61,7 +61,7 @@ test("takes kind, line and numbers of texts and borders, and removes them one by
     {kind: "text", text: "ΝΟΜΟΣ", arc: "top", size: 3, height: -0.4});
   await button("Remove Beads").click();
   await button("“ΝΟΜΟΣ”").click();
-  await enter(labelled("Size"), ""); // takes the default again
+  await enter(labelled("Size"), ""); // an empty field restores the default
   await hasList({kind: "line"}, {kind: "text", text: "ΝΟΜΟΣ", arc: "top", height: -0.4});
   await button("Remove “ΝΟΜΟΣ”").click();
   await button("Remove Line").click();

@@ -117,7 +117,7 @@ test("shows the attention on the model, beside the relief", async () => {
   await shown.check();
   await isComparing(true);
   await untilReady(page);
-  const colours = await page.locator("#before").evaluate((canvas) => { // the strongest blue and the strongest red
+  const colours = await page.locator("#before").evaluate((canvas) => { // returns the strongest blue and strongest red
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let [blue, red] = [0, 0];
     for (let i = 0; i < data.length; i += 4) {

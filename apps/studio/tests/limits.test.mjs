@@ -17,7 +17,7 @@ function mostMemory() {
   return kib / 1024;
 }
 
-// Writes up to `size` bytes, until the server takes no more. Returns the server's answer.
+// Sends up to `size` bytes, and stops when the server takes no more. Returns the server's answer.
 function pour(head, size) {
   return new Promise((resolve) => {
     const socket = connect(), part = Buffer.alloc(MIB, "x");
@@ -142,7 +142,7 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
   await engine.post("remove", {document});
 });
 
-// A connection cannot buffer the 7 MB of an answer. So a thread is blocked until the server closes the connection.
+// A connection cannot buffer an answer of 7 MB. So the answering thread waits until the server closes the connection.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
   const deaf = [], body = JSON.stringify({...PICTURE, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {

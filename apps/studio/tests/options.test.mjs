@@ -84,7 +84,7 @@ async function set(name, value) {
     await page.locator(`#sides [data-side="${value}"]`).click();
     return button("Use this view").click();
   }
-  if (name === "light") return it.check(); // takes the light of the picture
+  if (name === "light") return it.check(); // sets the option to the light of the picture
   if (name === "ornaments") return it.click(); // adds beads
   if (["crumbs", "plane", "doubtful"].includes(name)) return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
@@ -230,7 +230,7 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
   await baseImage().getByText("map.tif").waitFor();
 
-  await baseImage().locator("input").setInputFiles(scan); // a scan is no image: it is refused, nothing changes
+  await baseImage().locator("input").setInputFiles(scan); // a scan is no image, so it is refused and changes nothing
   await page.getByText("expected a picture of depths (PNG, TIFF").waitFor();
   await soon.match(async () => (await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();
@@ -270,7 +270,7 @@ test("opens a project whose height is a share of the diagonal, and has that heig
   await untilReady(page);
   const inMm = page.getByRole("spinbutton", {name: /^Height/}).first();
   await soon.equal(async () => Number(await inMm.inputValue()).toFixed(1), height.toFixed(1));
-  await reaches(({options}) => !("height-of-diagonal" in options)); // requests for the pictures of kinds of work
+  await reaches(({options}) => !("height-of-diagonal" in options)); // also in requests for the kinds' pictures
 });
 
 test("keeps tone curve and steps, which the paper's method does not have, for the other method", async () => {

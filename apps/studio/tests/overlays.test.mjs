@@ -30,7 +30,7 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await button("Dismiss").click();
 });
 
-// Each measured line ends where its label would cover the label of the relief's height or width.
+// Each measured line ends near the label of the relief's height or width, so that its own label could cover that one.
 test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
@@ -158,7 +158,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
   for (const [kind, fields] of Object.entries(kinds)) {
     await page.locator(`[data-kind="${kind}"]`).click();
-    await page.locator("[data-material=plaster]").click(); // the model is shown in plaster, and metal has other edges
+    await page.locator("[data-material=plaster]").click(); // the model is in plaster, too; metal would have other edges
     for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
     await eventually(async () => {
       await untilReady(page);
@@ -251,7 +251,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await send("touchEnd", []);
   await eventually(async () => assert.notEqual((await step()).up, ""));
   const turned = await step(), [upX, upY] = turned.up.split(",").map(Number);
-  // The model turns counterclockwise, so `up` turns clockwise.
+  // The model turns counterclockwise, so the direction `up` in the model's coordinates turns clockwise.
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up);
   assert.equal(turned.at, before.at + 1);
   await untilScaled();

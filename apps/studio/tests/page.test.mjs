@@ -326,10 +326,10 @@ test("turns, lights, cuts and compares", async () => {
   await page.mouse.move(...middle);
   await overlay.getByText(/^Height [\d.]+ mm$/).waitFor();
   let y = middle[1];
-  await eventually(async () => { // repeated, since the picture may still be small, as it is beside a section
+  await eventually(async () => { // repeated, since the picture may still be as small as beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
     const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
-    const plate = await plateLength(); // 110 mm, in pixels
+    const plate = await plateLength(); // in pixels; the plate is 110 mm long
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
     const line = await overlay.locator("line.cut").boundingBox();
     const label = await overlay.getByText(told, {exact: true}).boundingBox();

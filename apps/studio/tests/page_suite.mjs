@@ -89,8 +89,8 @@ export async function undoAll(of = page, isEnough = () => false) {
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
 }
 
-// Waits until the page has taken the sizes that its parts have now: it hears of them with the next frame. Pages behind
-// another one may have no frames.
+// Waits until the page has reacted to the present sizes of its parts, which the browser reports with the next frame.
+// The time limit is for pages behind another one, which may get no frames.
 export const untilLaidOut = (of = page) => of.evaluate(() => new Promise((resolve) => {
   requestAnimationFrame(() => requestAnimationFrame(resolve));
   setTimeout(resolve, 1000);
@@ -104,7 +104,7 @@ export async function untilTaken(of = page) {
 
 export async function choose(name, of = page) {
   await radio(name, of).click();
-  await untilLaidOut(of); // the settings of a tool take room from the picture
+  await untilLaidOut(of); // the settings of a tool make the picture smaller
   await untilTaken(of);
 }
 
@@ -143,8 +143,9 @@ export async function drag(from, ...through) {
   await page.mouse.up();
 }
 
-// Shows the relief on a touch screen. Returns its page `touched`, its DevTools session `cdp`, send(type, points),
-// close(), and fingers(apart, degrees), which returns the positions of two fingers around the centre of the picture.
+// Shows the relief on a touch screen. Returns the page `touched`, its DevTools session `cdp`, and functions:
+// send(type, points) sends a touch event; fingers(apart, degrees) returns the positions of two fingers around the
+// centre of the picture; close() closes the page.
 export async function touchScreen(viewport, isMobile = false) {
   const context = await browser.newContext({viewport, hasTouch: true, isMobile}), touched = await context.newPage();
   const cdp = await context.newCDPSession(touched);
@@ -188,7 +189,7 @@ export async function exportFiles(count = 1, of = page) {
   return saved;
 }
 
-// Exports the shown piece. Returns the name and the bytes of its file, its size, and whether it is closed.
+// Exports the shown piece. Returns the name and the bytes of its file, and the results of readStl().
 export async function exported(of = page) {
   await openExport(of);
   const [file] = await exportFiles(1, of);

@@ -26,7 +26,7 @@ const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0
   "rim-height": [0.3, 2]};
 const REFUSED = {plate: "abc", diameter: "0", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
-// The other fields that change with an entry in these fields.
+// For each of these fields, the other fields that an entry in it changes.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
 
 export class RandomEntries {
@@ -115,7 +115,7 @@ export class RandomEntries {
     await this.press("Redo");
   }
 
-  // First leaves the field, so that the page takes the typed text. This may enable or disable the button.
+  // Presses a button. First leaves the field, so that the page takes the text; this may enable or disable the button.
   async press(name) {
     const pressed = button(name, this.page);
     this.done.push(name);

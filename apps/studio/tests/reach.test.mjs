@@ -81,7 +81,7 @@ test("leaves the picture room at a zoom of 200 %", async () => {
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
     await soon.ok(() => page.locator(part).isVisible());
   }
-  // The opened notes offer the same as on a higher screen.
+  // When the notes are opened, they have the same buttons as on a higher screen.
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.locator("#notes").getByRole("button", {name: "Keep the noise"}).waitFor();
   await radio("Light").click();

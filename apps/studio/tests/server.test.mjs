@@ -218,7 +218,7 @@ test("finds the points of the model under places of its picture, in the coordina
     for (const [i, [x, y, z]] of points.slice(0, 3).entries()) {
       const [wantedX, wantedY] = place(...places[i]);
       assert.ok(Math.hypot(x - wantedX, y - wantedY) < 1e-9, `${x} ${y} at ${places[i]}`);
-      assert.ok(Math.abs(z - bowl(x, y)) < 0.006, `${z} is not ${bowl(x, y)}`); // half a step of the grid up the slope
+      assert.ok(Math.abs(z - bowl(x, y)) < 0.006, `${z} is not ${bowl(x, y)}`); // slope times half a step of the grid
     }
   }
   engine.document = document;

@@ -51,7 +51,7 @@ async function compare(name, options, extra = {}) {
   const quick = await picture({options, ...extra}), fine = await picture({options, fine: true, ...extra});
   const last = await picture({options, fine: true, finished: true, ...extra});
   assert.ok(last.is_finished && last.is_size_exact);
-  const wanted = {...options, height: last.height_mm}; // the page requests the file in this way
+  const wanted = {...options, height: last.height_mm}; // the options with which the page requests the file
   const piece = await engine.json("piece", {options: wanted});
   const stl = readStl((await engine.post("export", {options: wanted, format: "stl"})).body);
   near(piece.size_mm, stl.size, 2e-5, "piece and file");

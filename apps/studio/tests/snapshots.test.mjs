@@ -1,4 +1,4 @@
-// Tests snapshots: settings under names, which are taken, applied, compared, renamed and removed.
+// Tests snapshots (named settings): they are taken, applied, compared, renamed and removed.
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";

@@ -92,8 +92,8 @@ function small() {
     .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
 }
 
-// Runs in the page. Returns the rows of tool buttons if there are more than one on a desk, or more than two on a phone.
-// Low screens show the tools in a column, which is always accepted.
+// Runs in the page. Returns the rows of tool buttons if there is more than one row on a desk, or more than two on a
+// phone. Low screens show the tools in a column, which is always accepted.
 function wrapped() {
   if (innerHeight <= 560) return [];
   const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());

@@ -5,14 +5,14 @@ import {pageModule} from "./support.mjs";
 
 const {erased, packed, simplified, strokesOf, textOf, unpacked} = await pageModule("strokes.js");
 
-// Returns a line that turns by the sines of odd multiples of its numbers.
+// Returns `count` points of a wavy line in space.
 const wave = (count) => Array.from({length: count}, (_, i) =>
   [i / 10, Math.sin(i * 0.37), 0.3 * Math.cos(i * 0.71)]);
 
 const along = (a, b, t) => a.map((x, i) => x + t * (b[i] - x));
 const apart = (a, b) => Math.hypot(...a.map((x, i) => x - b[i]));
 
-// Returns places of a line that are close to each other.
+// Returns densely spaced points on a line.
 const placesOn = (line) => line.length === 1 ? line : line.slice(1).flatMap((b, i) =>
   Array.from({length: 51}, (_, k) => along(line[i], b, k / 50)));
 const distanceTo = (places, place) => Math.min(...places.map((p) => apart(p, place)));

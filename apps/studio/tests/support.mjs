@@ -282,15 +282,15 @@ export async function eventually(check) {
   }
 }
 
-// Prints which tool is missing. Returns that as the reason for skipping the tests of the page.
+// Prints which tool is missing, and returns this text as the reason for skipping the tests of the page.
 function without(missing) {
   const skip = `${missing}: the page is not tested`;
   console.log(`SKIPPED: ${skip}`);
   return {skip};
 }
 
-// Sets PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS. With a delay, a test fails
-// if it does not wait for the values that it checks, as it would on a busy machine.
+// Sets the time limit PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS. With a
+// delay, a test that does not wait for the values that it checks fails, as it would on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed
@@ -303,8 +303,8 @@ function patient(browser) {
   return browser;
 }
 
-// Returns {launch, skip} of the browser that the environment names, by default Chromium. `skip` is false or says what
-// is missing. `channel` makes Playwright drive Firefox by WebDriver BiDi.
+// Returns {launch, skip} for the browser that the environment names, by default Chromium. `skip` is false, or a text
+// that names what is missing. The option `channel` makes Playwright drive Firefox by WebDriver BiDi.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
   const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));

@@ -14,7 +14,7 @@ withBrowser(async () => {
   for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]])
     writeSample(sample, points, fileOf(sample));
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
-  await context.addInitScript(() => { // this tab ignores the events of the engine
+  await context.addInitScript(() => { // lets a tab ignore the events of the engine while `isDeaf` is true
     Object.assign(window, {told: [], missed: []});
     new BroadcastChannel(location.pathname).onmessage = ({data}) => window.told.push(data);
     window.EventSource = class extends EventSource {
@@ -187,7 +187,7 @@ test("shows what another page kept later, and says so where a change of its own 
   await untilHeight(tab, "5.50");
   await soon.ok(async () => !await toast(tab).isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
-  await keep(4.75, 600000); // later than the next change on this page, however busy the machine is
+  await keep(4.75, 600000); // dated later than the next change on this page, however busy the machine is
   await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
     kept.changed);
   await soon.equal(() => height(tab).inputValue(), "5.50");

@@ -1,5 +1,5 @@
-// C++ exceptions end the program: this target of clang has no library that can throw them. The host throws
-// its own exception instead, and must then discard the instance of the module.
+// Makes C++ exceptions end the program, because this target of clang has no library that can throw them. The host
+// throws its own exception instead, and must then discard the instance of the module.
 #include <cstddef>
 #include <cstring>
 #include <new>

@@ -85,7 +85,7 @@ Result<MakeOrder> order_from(const Json& json) {
   order.scan_path = text(json, "scan");
   if (json.contains("stream_above_mb"))
     order.input_arguments.most_points =
-        std::numeric_limits<double>::infinity();  // the caller knows how many fit
+        std::numeric_limits<double>::infinity();  // a caller who sets the limit in MB gets no other limit
   order.input_arguments.stream_above_mb =
       number(json, "stream_above_mb", order.input_arguments.stream_above_mb);
   if (const auto inputs = json.find("inputs"); inputs != json.end() && inputs->is_array())

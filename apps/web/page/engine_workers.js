@@ -2,7 +2,7 @@
 import {CANCELLED, EngineError} from "../../studio/page/engine.js";
 
 export class EngineWorkers {
-  #workers; // the one that solves, and the one that draws
+  #workers; // the solver and the drawer, see worker.js
   #on;
   #waiting = new Map(); // unanswered requests by the number of their message
   #last = 0;
@@ -29,7 +29,7 @@ export class EngineWorkers {
     return [...this.#waiting.values()].some(({isMaking}) => isMaking);
   }
 
-  // Sends a call. Calls onSolved when the frame of a picture only has to be drawn, so that the next one can be solved.
+  // Sends a call. Calls onSolved when a picture's heights are solved, so that those of the next one can be solved.
   send(call, request = {}, files = [], onSolved = () => {}) {
     const id = ++this.#last, isMaking = call === "piece" || call === "export";
     return new Promise((resolve, reject) => {

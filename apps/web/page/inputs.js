@@ -11,7 +11,7 @@ export function documentOf({sample, path}) {
   return hash.toString(16).padStart(16, "0");
 }
 
-// Returns the hexadecimal digits of a scan's hash; "" for a sample, and for a scan that was never read.
+// Returns the hash of a scan as hexadecimal digits; "" for a sample, and for a scan that was never read.
 export const scanOf = ({path = "", hash = ""}) =>
   path.match(/^scans\/([0-9a-f]{16})\//)?.[1] ?? hash.match(/:([0-9a-f]{16})$/)?.[1] ?? "";
 
@@ -21,10 +21,10 @@ export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 // Returns the paths of the files that options name: the height map of a base, fonts and drawings.
 export const pathsIn = (options = {}) => [options["base-image"], ...filesIn(options)].filter(Boolean);
 
-// Returns the options of a project, and those of its snapshots.
+// Returns a list of options: those of a project, and those of each of its snapshots.
 export const optionsIn = ({options, studio}) => [options, ...(studio?.snapshots ?? []).map((snapshot) => snapshot.options)];
 
-// Returns the hashes, in digits, of all files that the state of a document needs.
+// Returns the hashes, as hexadecimal digits, of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),
   ...[...state.steps, ...(state.snapshots ?? [])].flatMap(({options}) => pathsIn(options)).map((path) => scanOf({path}))];
 
@@ -42,7 +42,7 @@ export function mainOf(files) {
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
 
-// Returns the list files, [[path, file], ...], with bytes in place of the browser's blobs.
+// Returns the list `files`, [[path, file], ...], with bytes in place of the browser's blobs.
 export function bytesOf(files) {
   return Promise.all(files.map(async ([path, file]) =>
     [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));

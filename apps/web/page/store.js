@@ -48,7 +48,7 @@ export class BrowserStore {
     return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
   }
 
-  // Changes an entry. next() takes the current value and returns the new one. An error that next() throws is thrown on.
+  // Changes an entry. next() takes the current value and returns the new one. Throws an error that next() throws.
   async #change(name, key, next) {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
@@ -72,7 +72,7 @@ export class BrowserStore {
     }
   }
 
-  // Returns {id, state, picture, touched} of a document, `picture` being its thumbnail; nothing if it is not stored.
+  // Returns {id, state, picture, touched} of a stored document, where `picture` is its thumbnail; otherwise nothing.
   document = (id) => this.#get("documents", id);
 
   // Stores the state of a document. Throws an error of kind "older" if a newer state is already stored, and of kind

@@ -21,7 +21,7 @@ const LIMITS = [
 ];
 
 export class Transport {
-  // slowMs: a slower picture misses the aim of 30 pictures per second.
+  // If a picture takes longer than slowMs, the page misses its aim of 30 pictures per second.
   traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
@@ -30,7 +30,7 @@ export class Transport {
   #opened = {document: "", input: null}; // the document that was opened last
   #isOpen = new Set(); // documents that the workers have open
   #statuses = new Map(); // the last reported status of each document
-  #kept = new Map(); // per document, when it was stored last, and by which tab
+  #kept = new Map(); // for each document, the time when it was stored last, and the tab that stored it
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
@@ -51,7 +51,7 @@ export class Transport {
 
   // ------------------------------------------------------------------------------------------------ the workers
 
-  // Starts the workers, unless they run.
+  // Starts the workers, unless they are already running.
   async #start() {
     const module = await (this.#module ??= compile(content("engine")));
     if (this.#workers) return;
@@ -109,7 +109,7 @@ export class Transport {
     this.#tell({...this.#status(), busy: false, model: 0, error});
   }
 
-  // Ends the workers, because they handle no messages while they compute.
+  // Cancels work by ending the workers, because they handle no messages while they compute.
   #cancel() {
     this.#end(cancelled(), closed());
     this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});

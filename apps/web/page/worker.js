@@ -1,8 +1,8 @@
-// A worker that runs the WebAssembly engine for the page. There are two: one solves, and draws what is no frame of a
-// plate; the other one draws such frames, while the first one can solve the next. Both receive {module, port} first,
-// where the port leads from one to the other. The one that solves then receives {id, call, request, files}. Either one
-// answers {id, status, type, facts, body} or {id, error}, or {id, error, isOver} if the engine cannot continue. The one
-// that solves also sends {id, isSolved} when the other one draws a frame, and {statuses} when a status has changed.
+// A worker that runs the WebAssembly engine for the page. The page starts two workers, the solver and the drawer. The
+// drawer draws frames of plates, while the solver can solve the next frame. The solver draws all other pictures. Both
+// first receive {module, port}; the port connects them. The solver then receives {id, call, request, files}. Either
+// worker answers {id, status, type, facts, body} or {id, error}, or {id, error, isOver} if the engine cannot continue.
+// The solver also sends {id, isSolved} when the drawer draws a frame, and {statuses} when a status has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
@@ -11,8 +11,7 @@ const BEGINS_WORK = new Set(["open", "view"]);
 let engine, port, timer;
 let isDue = false; // whether a preparation was requested and has not begun
 
-// Prepares the view that was requested last. It first lets waiting messages be handled, as they may request another
-// view.
+// Prepares the view that was requested last. It runs after the waiting messages, as they may request another view.
 function work() {
   isDue = false;
   try {
@@ -54,13 +53,13 @@ function answer({ id, call, request, files = [] }) {
   if (isDue) timer = setTimeout(work);
 }
 
-// Hands a frame over to the worker that draws.
+// Sends a frame to the drawer.
 function handOver({ id, request: { options, ...picture }, facts, frame }) {
   port.postMessage({ id, picture, facts, frame }, [frame.buffer]);
   postMessage({ id, isSolved: true });
 }
 
-// Draws a frame that the other worker has solved.
+// Draws a frame that the solver has sent.
 function draw({ id, picture, facts, frame }) {
   try {
     engine.addFile("frame", frame);

@@ -18,7 +18,7 @@ std::size_t aligned(std::size_t size) {
   return (size + alignment - 1) / alignment * alignment;
 }
 
-// Appends arrays to bytes, each after its number of elements.
+// Writes arrays into bytes, each preceded by its number of elements.
 class ArrayWriter {
  public:
   template <typename T>
@@ -41,7 +41,7 @@ class ArrayWriter {
   }
 };
 
-// Returns the arrays of an ArrayWriter in their order. They are valid as long as the bytes.
+// Reads back the arrays of an ArrayWriter in the same order. They are valid as long as the bytes.
 class ArrayReader {
  public:
   explicit ArrayReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -69,7 +69,7 @@ class ArrayReader {
   std::span<const std::byte> rest_;
 };
 
-// The numbers of a frame. They stand before its arrays.
+// The numbers of a frame. In the bytes they precede the frame's arrays.
 struct Head {
   RenderOptions lengths;  // only mm_per_unit, margin_mm and thickness_mm
   float stretch = 1;

@@ -8,13 +8,13 @@
 
 namespace relievo::app::web {
 
-// Does the action "picture". If another instance can draw the frame, the facts have `is_undrawn`, and
-// the body is the file "frame" for draw(). It has a surface or heights only if they are not those of the last
-// such body.
+// Performs the action "picture". If another instance can draw the frame, the facts have `is_undrawn`, and the body is
+// the file "frame" for draw(). This file contains the surface and the heights only if they differ from those in the
+// last such file.
 studio::Answer undrawn_frame(studio::Engine& engine, const nlohmann::json& request);
 
-// Draws the last file "frame", in the size, light, material and camera of the request. The surface and the
-// heights are those of the last file that had any. Errors: those of picture_request() and read_file().
+// Draws the frame in the last file "frame", with the size, light, material and camera of the request. A surface or
+// heights that the file lacks are taken from an earlier file. Errors: those of picture_request() and read_file().
 Result<studio::Answer> draw(const nlohmann::json& request);
 
 }  // namespace relievo::app::web

@@ -7,8 +7,8 @@
 
 namespace relievo::app::web {
 
-// Names scans by their hash, and keeps their bytes until the page takes them. It keeps no documents;
-// apps/web/page/store.js does.
+// Names scans by their hash, and keeps their bytes until the page takes them. Documents are stored by
+// apps/web/page/store.js instead.
 class BrowserStore final : public studio::Store {
  public:
   std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override;

@@ -1,5 +1,5 @@
-// Answers the calls of the studio's page: the requests that the native studio gets by HTTP, and calls that
-// replace its files and threads.
+// Answers the calls of the studio's page: the requests that the native studio gets by HTTP, and calls for the work that
+// the native studio does with files and threads.
 #include "web/calls.h"
 
 #include "common/files.h"
@@ -46,8 +46,8 @@ CallAnswer call_answer(const studio::Answer& from, Json json) {
   return {std::move(json), {bytes.begin(), bytes.end()}};
 }
 
-// Reads a project file that the page has added under a path. Later, the call "unpacked" returns the bytes of
-// each file in it.
+// Reads a project file that the page has added under a path. After that, the call "unpacked" returns the bytes of
+// each file in the project file.
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };

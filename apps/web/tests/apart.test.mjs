@@ -1,5 +1,5 @@
-// Tests that a frame that one instance of the module solves and another one draws has the same pixels as a frame that
-// one instance solves and draws.
+// Tests that a frame has the same pixels whether the same instance of the module solves and draws it, or one instance
+// solves it and another one draws it.
 import assert from "node:assert/strict";
 import fs from "node:fs";
 import path from "node:path";

@@ -102,7 +102,7 @@ async function newStudio(t, name, address) {
   const openPage = async () => {
     const studio = new Studio(found, await context.newPage(), downloads);
     await studio.page.goto(address);
-    await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // then the page is ready
+    await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // shows that the page is ready
     return studio;
   };
   return {studio: await openPage(), openPage, context};
@@ -190,7 +190,7 @@ test("a base takes an image, which the browser and a project keep", options, asy
   await other.open(project);
   await other.untilReady("20,000");
   const solids = [await studio.exported("kept.stl"), await other.exported("opened.stl")].map(admesh);
-  assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // without the image it would be 8 mm
+  assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // without the image the height would be 8 mm
   assert.deepEqual(solids[1], solids[0]);
   if (native && fs.existsSync(native)) {
     const made = path.join(studio.downloads, "native.stl");
@@ -200,7 +200,7 @@ test("a base takes an image, which the browser and a project keep", options, asy
   assert.deepEqual([...studio.errors, ...other.errors], []);
 });
 
-// The font inside the program: a text has the same outlines in this file.
+// The file of the font that is built into the program. A text has the same outlines with either.
 const FONT = new URL("../../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url);
 
 test("a legend has the bytes of the native program, and a font by file stays in browser and project", options, async (t) => {
