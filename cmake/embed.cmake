@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C++ source that contains the bytes of FILES, for apps/studio/page_files.h.
+# Writes OUTPUT, a C++ source that contains the bytes of FILES with their paths below FOLDER, for apps/studio/page_files.h.
 set(types_html "text/html; charset=utf-8")
 set(types_js "text/javascript; charset=utf-8")
 set(types_css "text/css; charset=utf-8")
@@ -9,7 +9,7 @@ set(arrays "")
 set(entries "")
 set(number 0)
 foreach(file IN LISTS FILES)
-  get_filename_component(name ${file} NAME)
+  file(RELATIVE_PATH name ${FOLDER} ${file})
   string(REGEX MATCH "[a-z]+$" ending ${name})
   file(READ ${file} hex HEX)
   string(LENGTH "${hex}" size)

@@ -3,7 +3,7 @@
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
 import {shown, sizeText, typedNumber, withUnit} from "./lengths.js";
-import {inWords} from "./pieces.js";
+import {inWords} from "./panels/pieces.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 const PIXEL = {label: "Exact size of a pixel", unit: "mm", min: 0.001, max: 100};

@@ -5,7 +5,7 @@ import {namesOf} from "./about.js";
 import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
-import {inWords} from "./pieces.js";
+import {inWords} from "./panels/pieces.js";
 
 const PREPARED = namesOf("input", "view", "model");
 

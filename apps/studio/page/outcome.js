@@ -2,7 +2,7 @@
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";
-import {fileName} from "./kinds.js";
+import {fileName} from "./panels/kinds.js";
 import {withUnit} from "./lengths.js";
 
 export class Outcome {

@@ -4,9 +4,9 @@ import {about} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer, toast} from "./messages.js";
-import {plainName} from "./kinds.js";
+import {plainName} from "./panels/kinds.js";
 import {filesIn} from "./ornament_list.js";
-import {sceneFile} from "./scene_panel.js";
+import {sceneFile} from "./panels/scene_panel.js";
 import {zipOf} from "./zip.js";
 
 // Returns whether one of several files is a scan or a scene that refers to the others.

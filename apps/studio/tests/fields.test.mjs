@@ -14,7 +14,7 @@ const reach = () => page.locator("#reach");
 
 test("steps by round numbers with arrow keys", async () => {
   const next = (...args) => page.evaluate(async (values) =>
-    (await import(new URL("slider.js", location))).nextValue(...values), args);
+    (await import(new URL("panels/slider.js", location))).nextValue(...values), args);
   for (const [value, direction, isFine, least, wanted] of [[4, 1, false, 0.1, 4.1], [4.13, 1, false, 0.1, 4.2],
     [4.13, -1, false, 0.1, 4.1], [12.3, 1, false, 0.1, 13], [10, -1, false, 0.1, 9.9], [10, 1, false, 0.1, 11],
     [0, 1, false, 0.01, 0.01], [0.25, 1, false, 0.01, 0.26], [4, 1, true, 0.1, 4.01], [76, -1, false, 1, 75]])

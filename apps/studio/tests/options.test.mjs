@@ -66,7 +66,7 @@ const control = (name) => page.locator(`[data-option="${name}"]`);
 // Sets a shape with the menu, and its parameters with the fields below it.
 async function setShape(option, text) {
   const {name, first, values, labels} = await page.evaluate(async ([option, text]) => {
-    const {FIRST_TEXTS, SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
+    const {FIRST_TEXTS, SHAPES, parseShape} = await import("./panels/shapes.js"), {name, values} = parseShape(option, text);
     const labels = [...SHAPES[option][name].parameters].map(([parameter, {label}]) => [parameter, label]);
     return {name, first: FIRST_TEXTS[name] ?? name, values: [...values], labels: Object.fromEntries(labels)};
   }, [option, text]);
@@ -141,7 +141,7 @@ for (const [name, {value, first = {}, kind, isDepth, isColoured}] of cases)
 test("has a field for each parameter of each shape that the engine takes", async () => {
   await show(scan);
   for (const option of ["base", "wrap"]) {
-    const shapes = await page.evaluate(async (option) => Object.entries((await import("./shapes.js")).SHAPES[option])
+    const shapes = await page.evaluate(async (option) => Object.entries((await import("./panels/shapes.js")).SHAPES[option])
       .map(([name, {parameters}]) => [name, [...parameters.keys()]]), option);
     const {choices} = options.find(({name}) => name === option);
     assert.deepEqual(shapes.map(([name]) => name).sort(), [...choices].sort());
@@ -155,7 +155,7 @@ test("has a field for each parameter of each shape that the engine takes", async
 });
 
 test("gives any size to plates of the outlines of which the engine takes one", async () => {
-  const known = await page.evaluate(async () => (await import("./kinds.js")).FREE_OUTLINES), taken = [];
+  const known = await page.evaluate(async () => (await import("./panels/kinds.js")).FREE_OUTLINES), taken = [];
   for (const outline of options.find(({name}) => name === "outline").choices)
     if (!(await engine.json("check", {options: {outline, plate: "300x200"}})).error) taken.push(outline);
   assert.deepEqual([...known].sort(), taken.sort());

@@ -204,7 +204,7 @@ test("shapes the tone curve with presets and keys", async () => {
 test("has sliders, defaults and units of the engine's options", async () => {
   const {fields, first, options} = await page.evaluate(async () => {
     const from = (name) => import(new URL(name, location));
-    const [{FIELDS}, {FIRST}, {about}] = await Promise.all([from("fields.js"), from("document.js"), from("about.js")]);
+    const [{FIELDS}, {FIRST}, {about}] = await Promise.all([from("panels/fields.js"), from("document.js"), from("about.js")]);
     return {fields: FIELDS, first: FIRST.options, options: about.options};
   });
   const option = (name) => options.find((o) => o.name === name) ?? assert.fail(`there is no option ${name}`);

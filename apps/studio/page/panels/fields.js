@@ -1,7 +1,7 @@
 // Lists the options that have a slider, each with its label, its panel and the range of the slider.
 
-import {optionOf} from "./about.js";
-import {sentence} from "./controls.js";
+import {optionOf} from "../about.js";
+import {sentence} from "../controls.js";
 import {spread} from "./slider.js";
 
 // A label names the visible effect; the tip adds the paper's symbol. The slider spans the range `hand`, but any number

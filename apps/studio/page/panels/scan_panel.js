@@ -1,9 +1,9 @@
 // Shows the panel of a scan: notes about it, each with a button that changes the cause, and the controls for cropping
 // and denoising.
 
-import {$, make, pair} from "./controls.js";
+import {$, make, pair} from "../controls.js";
 import {noteOn} from "./depth_panel.js";
-import {isUnfinished} from "./inputs.js";
+import {isUnfinished} from "../inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
 // The sides that the user can cut away, each with its index in the crop X0,Y0,X1,Y1,NEAR,FAR. The numbers of a crop are

@@ -1,10 +1,10 @@
 // Shows the panel of light and colour: the light for which a relief is made, and the depth of a coloured scan's lines.
 
-import {$, ARROWS, Pause, clamp, make, pair, textField} from "./controls.js";
-import {hasScale} from "./document.js";
-import {isUnfinished} from "./inputs.js";
-import {typedNumber} from "./lengths.js";
-import {angles, degrees, direction} from "./lights.js";
+import {$, ARROWS, Pause, clamp, make, pair, textField} from "../controls.js";
+import {hasScale} from "../document.js";
+import {isUnfinished} from "../inputs.js";
+import {typedNumber} from "../lengths.js";
+import {angles, degrees, direction} from "../lights.js";
 import {GESTURE_END_MS} from "./slider.js";
 
 const LOWEST = 5, HIGHEST = 85; // range of elevations that the engine accepts, in degrees

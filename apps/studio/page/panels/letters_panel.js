@@ -1,14 +1,14 @@
 // Shows the panel of ornaments (texts, borders and drawings): their list, buttons that add an ornament, and the fields
 // of the chosen one.
 
-import {about} from "./about.js";
-import {$, make, oneAtATime, pair, textField} from "./controls.js";
-import {hasGround, shownOptions} from "./document.js";
-import {FileField, fileInput, fileNameOf, takeDropsOn} from "./file_field.js";
-import {isUnfinished} from "./inputs.js";
-import {LetterMarks} from "./letter_marks.js";
-import {shortLength, shown, typedNumber} from "./lengths.js";
-import {fileOf, listOf, withoutEmpty} from "./ornament_list.js";
+import {about} from "../about.js";
+import {$, make, oneAtATime, pair, textField} from "../controls.js";
+import {hasGround, shownOptions} from "../document.js";
+import {FileField, fileInput, fileNameOf, takeDropsOn} from "../file_field.js";
+import {isUnfinished} from "../inputs.js";
+import {LetterMarks} from "../stage/letter_marks.js";
+import {shortLength, shown, typedNumber} from "../lengths.js";
+import {fileOf, listOf, withoutEmpty} from "../ornament_list.js";
 import {ARCS, FILES, KINDS, hasPlace, isOnArc, keyOfFile, nameOf, partOf} from "./ornaments.js";
 import {inWords} from "./pieces.js";
 

@@ -1,10 +1,10 @@
 // Draws the outlines of texts and borders over the picture while the picture itself lacks them, and the handle that
 // moves the chosen text or drawing. A drag moves the outlines at once; the picture follows later.
 
-import {ARROWS, Pause, make} from "./controls.js";
-import {degrees} from "./lights.js";
-import {angleOf, hasPlace, isOnArc, nameOf} from "./ornaments.js";
-import {GESTURE_END_MS} from "./slider.js";
+import {ARROWS, Pause, make} from "../controls.js";
+import {degrees} from "../lights.js";
+import {angleOf, hasPlace, isOnArc, nameOf} from "../panels/ornaments.js";
+import {GESTURE_END_MS} from "../panels/slider.js";
 
 const BESIDE = 30; // distance from the middle of the letters to their handle, in pixels
 

@@ -1,11 +1,11 @@
 // Shows a card for each kind of work, with a picture of this scan. A kind of work sets the form, the size and the
 // material of the piece.
 
-import {defaultOf} from "./about.js";
-import {$, check, make, paint} from "./controls.js";
-import {FIRST, shownOptions} from "./document.js";
-import {takeArrowKeys} from "./inputs.js";
-import {shortLength, shown} from "./lengths.js";
+import {defaultOf} from "../about.js";
+import {$, check, make, paint} from "../controls.js";
+import {FIRST, shownOptions} from "../document.js";
+import {takeArrowKeys} from "../inputs.js";
+import {shortLength, shown} from "../lengths.js";
 
 // The outlines whose width and height the user may choose freely.
 export const FREE_OUTLINES = ["rectangle", "round", "ellipse"];

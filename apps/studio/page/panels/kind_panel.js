@@ -1,10 +1,10 @@
 // Shows the panel of the kind of work, with the controls that matter for this kind: those of the rim if there is a rim,
 // and the button that turns the piece into its die. The controls of all other options stay in the panels below.
 
-import {$} from "./controls.js";
-import {whenFinished} from "./inputs.js";
+import {$} from "../controls.js";
+import {whenFinished} from "../inputs.js";
 import {KINDS, RIM, dieOf, kindOf} from "./kinds.js";
-import {sizeText} from "./lengths.js";
+import {sizeText} from "../lengths.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 

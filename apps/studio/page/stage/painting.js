@@ -1,7 +1,7 @@
 // Turns one drag of the brush into a stroke of the document.
 
-import {clamp, oneAtATime} from "./controls.js";
-import {erased, simplified, strokesOf, textOf} from "./strokes.js";
+import {clamp, oneAtATime} from "../controls.js";
+import {erased, simplified, strokesOf, textOf} from "../strokes.js";
 
 // `most` is the amount of a stroke at a strength of 100 %.
 export const KINDS = {

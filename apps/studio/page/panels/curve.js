@@ -1,8 +1,8 @@
 // Edits the tone curve: the fraction of a slope that is kept, over the square root of the curvature. The engine samples
 // the curve, or the paper's formula if there is no curve, and sends the samples with each picture.
 
-import {about} from "./about.js";
-import {$, ARROWS, Pause, clamp, make} from "./controls.js";
+import {about} from "../about.js";
+import {$, ARROWS, Pause, clamp, make} from "../controls.js";
 import {GESTURE_END_MS} from "./slider.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;

@@ -1,8 +1,8 @@
 // Shows the panel of a scene with the rotation and the size of each model. When the user changes one, makes a new scene
 // file and opens it.
 
-import {$, make, pair, textField} from "./controls.js";
-import {typedNumber} from "./lengths.js";
+import {$, make, pair, textField} from "../controls.js";
+import {typedNumber} from "../lengths.js";
 
 const nameOf = (path) => path.split(/[/\\]/).at(-1);
 const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};

@@ -1,9 +1,9 @@
 // Crops the scan: shows a picture of the whole scan with a frame that the user draws, moves and resizes. The relief
 // leaves out everything outside the frame.
 
-import {$, clamp, make, paint} from "./controls.js";
-import {directionsOf} from "./directions.js";
-import {WHOLE, cropText, numbersOf} from "./scan_panel.js";
+import {$, clamp, make, paint} from "../controls.js";
+import {directionsOf} from "../directions.js";
+import {WHOLE, cropText, numbersOf} from "../panels/scan_panel.js";
 
 const LEAST = 0.05; // least width and height of the frame, as a share of the scan's box
 const NEAR = 14; // the pointer grabs a side within this distance, in pixels

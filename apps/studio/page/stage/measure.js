@@ -1,8 +1,8 @@
 // Measures in the front view: draws the dimensions of the piece, the height under the pointer, distances, and the line
 // of a section. Positions are in mm from the centre of the piece.
 
-import {clamp, make, oneAtATime, scaleOfType} from "./controls.js";
-import {withUnit} from "./lengths.js";
+import {clamp, make, oneAtATime, scaleOfType} from "../controls.js";
+import {withUnit} from "../lengths.js";
 
 const NEAR = 12; // the pointer grabs an end of a line within this distance, in pixels
 const ROW = 22; // height of a label in pixels, at the usual font size

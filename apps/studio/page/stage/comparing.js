@@ -2,7 +2,7 @@
 // of the relief, with the same size and position of the figure. The engine fits each picture to its own plate. The
 // model's plate is the figure with its margin, so the two pictures need different zooms.
 
-import {$, clamp, make} from "./controls.js";
+import {$, clamp, make} from "../controls.js";
 import {isRound} from "./measure.js";
 
 const NEAR = 12; // the pointer grabs the divider within this distance, in pixels

@@ -1,8 +1,8 @@
 // Moves, turns and scales the figure on its plate by hand.
 
-import {clamp} from "./controls.js";
-import {viewTurned} from "./directions.js";
-import {FREE_OUTLINES} from "./kinds.js";
+import {clamp} from "../controls.js";
+import {viewTurned} from "../directions.js";
+import {FREE_OUTLINES} from "../panels/kinds.js";
 
 const LEAST = 1, MOST = 1e5; // range of a figure's longer side in mm
 const TURN_STEP = 1; // in degrees

@@ -1,11 +1,11 @@
 // Shows the control for flatness, which is the paper's height coefficient alpha. If the height is not locked, alpha and
 // the saturation determine it.
 
-import {optionOf} from "./about.js";
-import {$, pair, sentence, textField} from "./controls.js";
-import {uOfAlpha} from "./document.js";
-import {isUnfinished} from "./inputs.js";
-import {typedNumber} from "./lengths.js";
+import {optionOf} from "../about.js";
+import {$, pair, sentence, textField} from "../controls.js";
+import {uOfAlpha} from "../document.js";
+import {isUnfinished} from "../inputs.js";
+import {typedNumber} from "../lengths.js";
 
 export class AlphaRow {
   constructor({doc, say}) {

@@ -8,8 +8,8 @@
 //   step(stage, x, y)       called for arrow keys, with smaller steps if Shift is pressed
 //   strike(stage)           called for Space
 
-import {ARROWS, clamp} from "./controls.js";
-import {angles, degrees, direction} from "./lights.js";
+import {ARROWS, clamp} from "../controls.js";
+import {angles, degrees, direction} from "../lights.js";
 
 function setLight(stage, azimuth, elevation) {
   const light = direction(azimuth, clamp(elevation, 8, 88)).map((x) => Math.round(x * 1e4) / 1e4);

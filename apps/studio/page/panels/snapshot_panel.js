@@ -1,9 +1,9 @@
 // Shows the panel that takes snapshots of the settings, lists them, and applies, compares, renames and removes them.
 
-import {$, make, textField} from "./controls.js";
-import {isUnfinished} from "./inputs.js";
-import {isSameView, viewOf} from "./opening.js";
-import {MOST_SNAPSHOTS, freeName, partOfSnapshot, snapshotOf} from "./snapshots.js";
+import {$, make, textField} from "../controls.js";
+import {isUnfinished} from "../inputs.js";
+import {isSameView, viewOf} from "../opening.js";
+import {MOST_SNAPSHOTS, freeName, partOfSnapshot, snapshotOf} from "../snapshots.js";
 
 export class SnapshotPanel {
   constructor({doc, modes}) {

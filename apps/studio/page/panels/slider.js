@@ -1,8 +1,8 @@
 // Makes sliders that have a number field beside them.
 
-import {Pause, clamp, make} from "./controls.js";
-import {finish, isUnfinished} from "./inputs.js";
-import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
+import {Pause, clamp, make} from "../controls.js";
+import {finish, isUnfinished} from "../inputs.js";
+import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "../lengths.js";
 
 // Mappings from values to positions on a slider, and back.
 export const spread = {

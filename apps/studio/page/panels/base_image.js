@@ -1,8 +1,8 @@
 // Shows the control for the height map of a base. The user chooses an image or drops it on the control.
 
-import {engineOptions, isGone, markGone} from "./document.js";
-import {FileField, fileNameOf, takeDropsOn} from "./file_field.js";
-import {offer} from "./messages.js";
+import {engineOptions, isGone, markGone} from "../document.js";
+import {FileField, fileNameOf, takeDropsOn} from "../file_field.js";
+import {offer} from "../messages.js";
 
 const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";

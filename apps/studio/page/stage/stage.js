@@ -2,9 +2,9 @@
 // section the relief by mouse and keys.
 
 import {Comparing} from "./comparing.js";
-import {$, Pause, clamp, make, paint} from "./controls.js";
-import {hasScale, shownOptions} from "./document.js";
-import {TABLE_LIGHTS} from "./lights.js";
+import {$, Pause, clamp, make, paint} from "../controls.js";
+import {hasScale, shownOptions} from "../document.js";
+import {TABLE_LIGHTS} from "../lights.js";
 import {Measure} from "./measure.js";
 import {takeFingers} from "./pinch.js";
 import {scaleMarks} from "./ruler.js";

@@ -1,8 +1,8 @@
 // Shows the scale of the picture: a bar of a round length in the picture's corner. While the user measures or moves the
 // figure, shows rulers along the picture's edges instead, which start at the lower left corner of the piece.
 
-import {make, scaleOfType} from "./controls.js";
-import {millimetresPerUnit, shortLength, shown} from "./lengths.js";
+import {make, scaleOfType} from "../controls.js";
+import {millimetresPerUnit, shortLength, shown} from "../lengths.js";
 
 const BAR = 150; // greatest length of the bar in pixels, at the usual font size
 const APART = 64, FINE = 6; // least distance in pixels between the numbers of a ruler, and between its strokes

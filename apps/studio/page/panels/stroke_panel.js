@@ -1,9 +1,9 @@
 // Lists the strokes of the brush. Each stroke can be named, muted and removed. A stroke whose row is under the pointer
 // or has the focus is highlighted on the picture.
 
-import {$, make, textField} from "./controls.js";
-import {isUnfinished} from "./inputs.js";
-import {strokesOf, textOf} from "./strokes.js";
+import {$, make, textField} from "../controls.js";
+import {isUnfinished} from "../inputs.js";
+import {strokesOf, textOf} from "../strokes.js";
 
 export class StrokePanel {
   constructor({doc, brush}) {

@@ -1,8 +1,8 @@
 // Paints strokes: a drag of the brush on the picture paints a stroke onto the model. The engine converts the pointer's
 // positions to points of the model. The unfinished stroke is already in the document, so that pictures show it.
 
-import {$, clamp, make, pair} from "./controls.js";
-import {hasScale} from "./document.js";
+import {$, clamp, make, pair} from "../controls.js";
+import {hasScale} from "../document.js";
 import {AREAS, KINDS, Painting} from "./painting.js";
 
 const SLIDERS = {

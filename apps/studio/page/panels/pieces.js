@@ -1,13 +1,13 @@
 // Makes the controls of all options that have no slider.
 
-import {about, optionOf} from "./about.js";
+import {about, optionOf} from "../about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
-import {$, Pause, clamp, make, pair, sentence} from "./controls.js";
-import {FIRST, NOT_PRINTED} from "./document.js";
+import {$, Pause, clamp, make, pair, sentence} from "../controls.js";
+import {FIRST, NOT_PRINTED} from "../document.js";
 import {FIELDS} from "./fields.js";
-import {isUnfinished} from "./inputs.js";
+import {isUnfinished} from "../inputs.js";
 import {FREE_OUTLINES, KINDS} from "./kinds.js";
-import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "./lengths.js";
+import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "../lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
 import {GESTURE_END_MS, UPWARDS, nextValue} from "./slider.js";
 

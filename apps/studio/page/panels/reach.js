@@ -1,9 +1,9 @@
 // Marks the largest reachable height on the slider. If the wanted height is out of reach, names the option that limits
 // it, with a button that relaxes this option.
 
-import {$, make, unbroken} from "./controls.js";
-import {shownOptions} from "./document.js";
-import {withUnit} from "./lengths.js";
+import {$, make, unbroken} from "../controls.js";
+import {shownOptions} from "../document.js";
+import {withUnit} from "../lengths.js";
 
 // Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle comes first:
 // without it, the engine knows the largest height at once.

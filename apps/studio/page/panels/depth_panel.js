@@ -1,7 +1,7 @@
 // Shows the panel of a depth image: which of its pixels were left out and why, and the options for reading it.
 
-import {$, count, make, paint} from "./controls.js";
-import {hasScale} from "./document.js";
+import {$, count, make, paint} from "../controls.js";
+import {hasScale} from "../document.js";
 
 const LEAST_OFFERED = 0.02; // if more than this share of the pixels is blur, keeping them is offered beside the picture
 

@@ -1,7 +1,7 @@
 // Lists the kinds of ornaments, and returns facts about where they are placed.
 
-import {FIRST, ON_GROUND} from "./document.js";
-import {fileNameOf} from "./file_field.js";
+import {FIRST, ON_GROUND} from "../document.js";
+import {fileNameOf} from "../file_field.js";
 
 export const KINDS = {text: "Text", beads: "Beads", rope: "Rope", line: "Line", drawing: "Drawing"};
 export const ARCS = {straight: "Straight", top: "Arc at the top", bottom: "Arc at the bottom", around: "All around"};

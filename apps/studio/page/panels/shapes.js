@@ -1,9 +1,9 @@
 // Makes the controls of options whose value is a shape with parameters, such as "wave:height=3,length=40,hollow" or the
 // tool "v:60:0.5": a menu of the shapes, and a field for each parameter of the chosen shape.
 
-import {make, pair, textField} from "./controls.js";
-import {isUnfinished} from "./inputs.js";
-import {parseLength, shortLength, shown, shownUnit, typedNumber} from "./lengths.js";
+import {make, pair, textField} from "../controls.js";
+import {isUnfinished} from "../inputs.js";
+import {parseLength, shortLength, shown, shownUnit, typedNumber} from "../lengths.js";
 
 const mm = {unit: "mm", min: 0, max: 1e6}, degrees = {unit: "°", min: -360, max: 360}, word = {isWord: true};
 const height = ["height", {label: "Height", ...mm}], diameter = ["diameter", {label: "Diameter", ...mm}];

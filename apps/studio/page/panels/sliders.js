@@ -1,11 +1,11 @@
 // Makes the page's sliders, as listed in fields.js, the button that locks the height, and the menu of methods. These
 // show and change the values of the document. slider.js has the class of a single slider.
 
-import {defaultOf, namesOf, optionOf} from "./about.js";
-import {$, make} from "./controls.js";
-import {FIRST, hasScale} from "./document.js";
+import {defaultOf, namesOf, optionOf} from "../about.js";
+import {$, make} from "../controls.js";
+import {FIRST, hasScale} from "../document.js";
 import {FIELDS} from "./fields.js";
-import {withUnit} from "./lengths.js";
+import {withUnit} from "../lengths.js";
 import {Slider, lockButton} from "./slider.js";
 
 // The sliders for the relief's shape, except sizes. They have no effect on a lithophane, which is made from brightness.
