@@ -103,7 +103,7 @@ double usual_points(const Scene& scene);
 // points except outliers.
 // - All models get about the same sampling distance. A scene of only clouds gets the distance of the finest
 // cloud, or the distance at which the wanted number of points is visible if that is larger. A scene with
-// meshes always gets the second of these. Finer clouds are subsampled to this distance. Much coarser clouds
+// meshes always gets the latter distance. Finer clouds are subsampled to this distance. Much coarser clouds
 // keep only their visible points, and points are added between these.
 // - Normals are estimated or oriented separately for each model.
 // - If any model has colours, models without colours become white.

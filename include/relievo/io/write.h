@@ -48,8 +48,8 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = 
 // Keys and values of a PNG's tEXt chunks.
 using PngTexts = std::span<const std::pair<std::string, std::string>>;
 
-// The texts and the pixel size in a PNG file. Keys have 1 to 79 Latin-1 characters, values at least one
-// character. A positive `mm_per_pixel` is stored as the physical pixel size (pHYs).
+// The texts and the pixel size in a PNG file. Keys have 1 to 79 Latin-1 characters, and values have at least
+// one character. A positive `mm_per_pixel` is stored as the physical pixel size (pHYs).
 struct PngLabel {
   PngTexts text = {};
   double mm_per_pixel = 0;

@@ -27,7 +27,7 @@ struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest height with detail, the base's 0 included
+  double height = 0;            // h: highest minus lowest height, including detail and the base's height 0
   Shape shape;                  // the shape of the relief
 };
 

@@ -14,9 +14,9 @@ struct Stroke;
 class ToneCurve;
 
 enum class Style {
-  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), the paper's
-  // rules are applied to our points and edges; this is for coarse reliefs of a turned model and for the
-  // reference heights of SubspaceModel. Models of Method::paper make their reliefs by ReliefModel::paper(),
+  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), it applies
+  // the paper's rules to our points and edges. Coarse reliefs of a turned model and the reference heights of
+  // SubspaceModel are made in this way. Models of Method::paper make their reliefs by ReliefModel::paper(),
   // for either style.
   paper_weights,
   layered  // normals compressed layer by layer, fine layers least; heights compressed by HeightCorrection

@@ -92,7 +92,8 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + common * overall; `common` is the same for all of them.
+  // The ratio of a control point c is z_c * own + common * overall. z_c is its height; `common` is the same
+  // for all control points.
   struct RatioTerm {
     float own = 0, overall = 0;
   };

@@ -64,7 +64,7 @@ LayerWeights layer_weights(const Shape& shape);
 LayerWeights layer_weights(const Shape& shape, double more_attention);
 
 // Separate the saturation from a compression c. In the layered style, the saturation or tone curve multiplies
-// layers by saturation_scale(c) times w_k of saturation_alone(c), which is 1 for saturation 0.
+// layers by saturation_scale(c) times w_k of saturation_alone(c). This product is 1 for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

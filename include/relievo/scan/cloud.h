@@ -33,8 +33,8 @@ struct Cloud {
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
-  // For each point the shortest axis of its Gaussian splat, which is across the surface and may have either
-  // sign; zero where it is not known. Empty for other clouds. estimate_normals() uses the axes.
+  // For each point the shortest axis of its Gaussian splat, which is perpendicular to the surface and may
+  // have either sign; zero where it is not known. Empty for other clouds. estimate_normals() uses the axes.
   std::vector<Vec3f> axes = {};
 
   std::size_t size() const { return points.size(); }
