@@ -11,7 +11,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns the number of points: the product of all sizes but the last. Error: the file has fewer points.
+// Returns the number of points: the product of all sizes but the last. Errors: kind input if the file has
+// fewer points.
 Result<std::size_t> count_rows(const Source& source, const NpyArray& array) {
   const std::size_t room = source.bytes.size() - array.data;
   const std::size_t row_bytes = array.bytes_per_number() * array.sizes.back();

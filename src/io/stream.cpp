@@ -92,8 +92,8 @@ struct Scout {
   float sign = 1;             // -1 if the normals point inwards
 };
 
-// Estimates the values. The outlier radius is defined as in outliers(): 20 times the distance within which 90
-// % of the points are.
+// Estimates the values of Scout. The outlier radius is defined as in outliers(): 20 times the distance within
+// which 90 % of the points are.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -210,7 +210,7 @@ class ViewGrid {
   struct Sum {
     Vec3 at = Vec3::Zero();
     Vec3f normal = Vec3f::Zero();
-    // Integers, because adding 1 to a float above 2^24 has no effect.
+    // The sums are integers, because adding 1 to a float above 2^24 has no effect.
     std::array<std::uint32_t, 3> colour = {};
     std::uint32_t count = 0;
   };

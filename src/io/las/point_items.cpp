@@ -56,7 +56,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // otherwise the colour is grey
+  if (!has(6)) {  // otherwise green and blue equal red
     colour[1] = colour[2] = colour[0];
     return;
   }
@@ -298,9 +298,9 @@ void LayeredPoint::decode_class(Channel& channel) {
   if (flags_) channel.flags = symbol_of(channel.flag_sets[channel.flags], *flags_, 64);
 }
 
-// Writers of version 3 store a point's colour under scanner 0, unless the scanner changes at this point. If
-// the new scanner already has colours, they store the difference from the last colour of the previous
-// scanner, and then replace that colour.
+// In version 3, a point's colour belongs to scanner 0, unless the scanner changes at this point. If the new
+// scanner already has colours, the stored difference is from the last colour of the previous scanner. The
+// decoded colour then replaces that last colour.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;
