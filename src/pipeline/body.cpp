@@ -30,7 +30,7 @@ constexpr double rim_bevel = .3;
 constexpr double front_share = .9995;
 constexpr double ornament_share = .997;  // front_share for walls of ornaments, whose corners are rounded
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
-constexpr double rounded_up = 1.002;     // largest factor by which the polygon of a curved rim steepens bevels
+constexpr double rounded_up = 1.002;  // largest factor by which the polygon of a curved rim steepens bevels
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
