@@ -60,9 +60,9 @@ struct ReliefReport : ScanReport {
   double steepest_deg = 0;     // steepest slope of the front's triangles, with corners in single precision
 
   // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
-  // exact in x and y. In z it keeps the uncompressed depth of the model, whose lowest visible point is on the
-  // ground (with a curved base, on the ground in the plate's middle). For a mirrored form `rotation` includes
-  // the reflection.
+  // exact in x and y. In z it keeps the uncompressed depth of the model. The model's lowest visible point is
+  // mapped to the ground or, with a curved base, to the ground in the plate's middle. For a mirrored form
+  // `rotation` includes the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();

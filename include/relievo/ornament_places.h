@@ -22,7 +22,7 @@ struct OrnamentPlace {
 };
 
 // Returns the places of options.all_ornaments(), in that order, on the flat plate of the surface's relief.
-// Does not check that the ornaments have room; make_relief() does. Errors: those of check() and with_width().
+// Only make_relief() checks that the ornaments have room. Errors: those of check() and with_width().
 Result<std::vector<OrnamentPlace>> ornament_places(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

@@ -33,8 +33,8 @@ struct Job {
   std::mutex failing{};               // guards the exception
   std::exception_ptr exception = {};  // exception of block first_failed
 
-  // The job stores an exception until its end. If the exception left the caller's block immediately, the
-  // other threads would continue with a destroyed job.
+  // Stores the exceptions of blocks, and throws none. If an exception left this function in the caller's
+  // thread, the job would be destroyed while other threads are still working on it.
   void work() noexcept {
     while (work_on_next()) {
     }

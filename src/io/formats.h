@@ -193,7 +193,7 @@ inline constexpr std::array foreign_endings = {
     ForeignFormat{".ply", "a file that does not begin with the line 'ply'"}};
 
 // Returns a description, such as "a ZIP archive", of a file in an unsupported format or with unknown binary
-// data. Returns no description for text that does not begin like such a format.
+// data. Returns no description for text that does not begin like an unsupported format.
 std::string foreign_format(const Source& source);
 
 // Returns the names of the formats with that content, such as "PLY, PCD, LAS".

@@ -1,5 +1,5 @@
-// Reads NumPy's arrays of points: rows of coordinates, and pictures with a point in each pixel, which
-// programs that estimate points from photographs write. Tested by tests/io/npy_test.cpp.
+// Reads NumPy's arrays of points. An array has rows of coordinates, or pictures with a point in each pixel.
+// Such pictures come from programs that estimate points from photographs. Tested by tests/io/npy_test.cpp.
 #include <algorithm>
 
 #include "io/formats.h"

@@ -243,7 +243,7 @@ class ObjReader {
 
 }  // namespace
 
-// Recognises a text by the first word of its lines, because OBJ has only few such words.
+// Recognises a text by the first words of its lines, because only few words can begin a line of OBJ.
 bool is_obj(const Source& source) {
   if (!foreign_format(source).empty()) return false;
   if (has_ending(source.name, ".obj")) return true;

@@ -56,7 +56,7 @@ struct FormedFront {
   HeightFieldMesh front;
   double height_mm = 0;                // distance from the lowest to the highest point
   double simplification_error_mm = 0;  // largest height difference from the front before simplification
-  std::size_t full_triangles = 0;      // triangles of the front before simplification
+  std::size_t full_triangles = 0;      // number of triangles of the front before simplification
 };
 
 // Returns the heights in millimetres of the base under the points of a front of Form::relief; no heights for

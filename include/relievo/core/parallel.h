@@ -1,6 +1,6 @@
 // Runs loops in parallel. The library creates threads only here. On systems without threads, such as
-// WebAssembly, the calling thread does everything. Loops are divided into blocks whose limits depend on the
-// number of elements, but not on the number of threads, so results have the same bits for any number of
+// WebAssembly, the calling thread does everything. Loops are divided into blocks. Their limits depend on the
+// number of elements, but not on the number of threads, so that results have the same bits for any number of
 // threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
@@ -28,9 +28,9 @@ void set_thread_count(int threads);
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. If blocks throw, blocks that have not begun are skipped, and the exception
-// of the lowest throwing block is rethrown, which is the same for any number of threads. In a nested call,
-// and while the other threads serve another call, the calling thread runs all blocks alone.
+// are started in ascending order. If blocks throw, blocks that have not begun are skipped. The exception of
+// the lowest throwing block is rethrown, and that block is the same for any number of threads. In a nested
+// call, and while the other threads serve another call, the calling thread runs all blocks alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 

@@ -55,9 +55,9 @@ struct PngLabel {
   double mm_per_pixel = 0;
 };
 
-// Return the image as PNG. The result is empty if the image has no pixels, a side of more than a million
-// pixels, or a number of pixels that is not width times height, or if `label` does not satisfy the rules of
-// PngLabel.
+// Return the image as PNG. The result is empty if the image has no pixels, if a side has more than a million
+// pixels, or if the number of pixels is not width times height. It is also empty if `label` does not satisfy
+// the rules of PngLabel.
 std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image, const PngLabel& label = {});
 std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& label);

@@ -77,8 +77,8 @@ struct OrnamentFacts {
 };
 
 // Checks that the text can be typeset in its font. Errors: kind option for a font that cannot be read, for a
-// text without visible characters, for a text that is too long, and for characters missing in the font, which
-// the message names.
+// text that is too long or has no visible characters, and for characters missing in the font. The message
+// names the missing characters.
 Result<void> check_text(const Ornament& ornament);
 
 }  // namespace relievo

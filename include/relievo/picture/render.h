@@ -111,8 +111,9 @@ class FrameRenderer {
   // Returns the uncompressed model: its depths above its lowest visible point.
   Shown original() const;
 
-  // Returns `samples` heights in mm above the ground, evenly spaced along the line between two positions in
-  // the plate's plane, in mm from the middle of the relief. Outside the relief the height is 0.
+  // Returns `samples` heights in mm above the ground. They are evenly spaced along the line between two
+  // positions in the plate's plane. The positions are in mm from the middle of the relief. Outside the relief
+  // the height is 0.
   std::vector<float> profile(const Shown& shown, const RenderOptions& options, const Vec2& from,
                              const Vec2& to, std::size_t samples);
 

@@ -126,17 +126,17 @@ Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& option
 // shell, and its walls point towards the axis. Its bounding box begins at the origin. If a rectangle goes all
 // the way around a cylinder or a cone, its two sides are joined. `plate` must be the result of make_plate()
 // with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief would reach
-// the axis, if a plate that goes all the way around has an outline other than a rectangle, a rim or a slanted
-// axis, or if there is no wrap.
+// the axis, or if there is no wrap; also, for a plate that goes all the way around, if its outline is not a
+// rectangle, its axis is slanted, or it has a rim.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
 Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
-// Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
-// triangle has two equal corners, that no two used points have the same single-precision coordinates, and
-// that the volume is positive. Returns a description of the first fault, or an empty string. This function is
-// public for tests and bug reports. It takes 0.1 s for 1M triangles.
+// Checks that a solid is closed and has no faults: every edge is shared by exactly two triangles with
+// opposite directions; no triangle has two equal corners; no two used points have the same single-precision
+// coordinates; the volume is positive. Returns a description of the first fault, or an empty string. This
+// function is public for tests and bug reports. It takes 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

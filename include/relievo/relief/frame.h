@@ -26,9 +26,9 @@ struct FrameOptions {
 };
 
 struct FrameTimes {
-  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve, summed over all solves
-  double after_solve_s = 0;  // t2: detail or height correction, and extension to all points
-  double normals_s = 0;      // t3: normals
+  double heights_s = 0;      // the paper's t1: weights, slopes, right-hand side and solve, for all solves
+  double after_solve_s = 0;  // the paper's t2: detail or height correction, and extension to all points
+  double normals_s = 0;      // the paper's t3: normals
   int solves = 0;            // number of solves: 1, or more for a given height
 };
 

@@ -52,8 +52,8 @@ std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any
 // points are repeated. Points repeat each other if they are much closer to each other than to all other
-// points and their normals differ by at most 90 degrees. With this limit both sides of a thin sheet are kept.
-// Normals and colours are the means of the group.
+// points and their normals differ by at most 90 degrees. This limit keeps both sides of a thin sheet. Normals
+// and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
 // Returns the cloud without the points whose indices are in `erased`, in ascending order.

@@ -1,5 +1,6 @@
 // Reads the pages of an E57 file, which are blocks of 1,024 bytes. The last four bytes of a page are a
-// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not.
+// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not
+// count them.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,7 @@ constexpr std::size_t channel_size = 4, most_stride = 256, most_in_block = 256;
 constexpr unsigned char version_0 = 0xA0, version_1 = 0xA1;
 constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 
-// The number of bits of a difference for each of a group's four possible codes.
+// The number of bits per difference, for each of the four codes that a group may have.
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 

@@ -23,7 +23,7 @@ constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 using NumberRows = std::vector<std::vector<double>>;
 
 // Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbouring
-// heights of a surface correlate, x and y of a cloud do not.
+// heights of a surface correlate, but the x and y of a cloud do not correlate.
 std::optional<double> correlation(const NumberRows& rows, std::size_t column) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   for (const auto& row : rows) {

@@ -93,8 +93,8 @@ Result<void> fill_values(const Source& source, const PictureChannels& wanted, st
 // Returns the step between possible values: 1 if all are integers, else 0.
 double step_of(const Image<float>& values);
 
-// Turns a picture according to the tag Orientation of TIFF and Exif, 1 to 8, so that its first row is at the
-// top and its first column on the left. Other values change nothing.
+// Turns a picture so that its first row is at the top and its first column is on the left. `orientation` is
+// the tag Orientation of TIFF and Exif, 1 to 8. Other values change nothing.
 void turn_upright(DepthImage& image, int orientation);
 
 struct PictureFormat {
