@@ -26,7 +26,7 @@ enum class OptionStage {
   model,     // the system for the heights is prepared
   shape,     // the heights are found
   plate,     // the plate is built around the relief
-  body,      // the plate is bent and formed
+  body,      // the plate gets its base, form and wrap
   triangles  // the triangles of the solid are chosen, and its front is finished
 };
 

@@ -84,9 +84,9 @@ struct ReliefOptions : NumericOptions {
   std::string text;  // text on the ground; none if empty
   TextArc text_arc = TextArc::straight;
   std::string font_name;                      // file of the text's font; the built-in font if empty
-  std::shared_ptr<const FontFile> font = {};  // contents of the font's file, which programs read
+  std::shared_ptr<const FontFile> font = {};  // contents of the font's file; the calling program reads them
   std::string ornament_source;                // file or JSON with a list of further ornaments
-  std::vector<Ornament> ornaments;            // the ornaments in the list, which programs read
+  std::vector<Ornament> ornaments;            // the ornaments in the list; the calling program reads them
   Form form = Form::relief;
   std::optional<Tool> tool;  // if given, the report states which part the tool reaches
   Finish finish = Finish::full;

@@ -235,7 +235,7 @@ class ObjReader {
   // Colours of vertices: after the coordinates, after the coordinates and a weight of 1, and in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
-  std::vector<Corner> corners_;         // all faces
+  std::vector<Corner> corners_;         // corners of all faces, one face after the other
   std::vector<std::size_t> face_ends_;  // per face: index after its last corner
   Index highest_vertex_ = 0;            // highest index of a vertex in a face
   std::size_t highest_line_ = 0;        // line of the face with that index

@@ -85,7 +85,7 @@ Result<Cloud> take_sample(Rows& rows) {
   return sample;
 }
 
-// Values that are estimated from the sample.
+// Values that are estimated from a sample of the cloud's points.
 struct Scout {
   Vec3 middle;                // median of the points
   double outlier_radius = 0;  // points farther from the middle are outliers

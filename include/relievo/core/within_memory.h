@@ -25,8 +25,8 @@ template <typename F>
 auto within_memory(const MemoryNeed& need, F&& f) -> decltype(f()) {
   try {
     return f();
-  } catch (const std::bad_alloc&) {  // the memory that f allocated is free again
-  } catch (const std::length_error&) {  // thrown for a vector with more elements than any vector can have
+  } catch (const std::bad_alloc&) {     // the memory that f allocated is free again
+  } catch (const std::length_error&) {  // thrown for a vector with more elements than it can have
   }
   return std::unexpected(memory_error(need));
 }

@@ -108,7 +108,7 @@ class SubspaceModel {
   Samples samples_;
   double delta_ = 0;
 
-  std::vector<float> control_reference_;  // reference heights of the control points, z0_c
+  std::vector<float> control_reference_;  // reference heights of the control points
   std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline ratio_spline_, offset_spline_;
   std::vector<SplinePlace> places_;

@@ -20,7 +20,7 @@ struct Surface {
   std::vector<Colour> colours;          // colours of the points; empty if the cloud has none
   std::vector<float> own_heights = {};  // see Cloud; empty if the cloud has none
   NormalisedCurvature curvature;
-  Triangulation triangulation;  // without `neighbours`
+  Triangulation triangulation;  // its `neighbours` are empty
   Boundary boundary;
 
   View view;

@@ -158,8 +158,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // Takes the range of colours from colorLimits or, if this element is missing, from the columns' limits.
-  // Floating-point columns without limits are in [0, 1].
+  // Scales colours to [0, 255]. The element colorLimits states their range; if it is missing, the limits of
+  // the columns state the range. Floating-point columns without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");

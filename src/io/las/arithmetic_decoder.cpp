@@ -3,7 +3,7 @@
 namespace relievo::io {
 namespace {
 
-constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits of the probabilities
+constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits per probability of a symbol, and of a bit
 
 // The number of a difference's highest bits that a model decodes; the lower bits have no model.
 constexpr std::uint32_t modelled_bits = 8;
@@ -71,7 +71,7 @@ std::uint32_t ArithmeticDecoder::bit(BitModel& model) {
 }
 
 std::uint32_t ArithmeticDecoder::bits(unsigned count) {
-  const unsigned most = 19;  // most bits per step, so that the interval stays long enough
+  const unsigned most = 19;  // largest number of bits per step, so that the interval stays long enough
   if (count > most) {
     const std::uint32_t low = bits(16);
     return bits(count - 16) << 16 | low;

@@ -50,8 +50,8 @@ struct LazLayout {
 constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
 // This value (or 0) is stored as the number of points per chunk if that number varies.
 constexpr std::uint32_t chunks_vary = ~0U;
-// Most points per byte of a chunk; a chunk that promises more is an error. A row of points with equal steps
-// was measured to have 40 points per byte.
+// The largest number of points per byte of a chunk; a chunk that promises more is an error. A row of points
+// with equal steps was measured to have 40 points per byte.
 constexpr std::uint64_t most_points_a_byte = 256;
 
 // Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the

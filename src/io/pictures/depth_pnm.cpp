@@ -139,7 +139,8 @@ bool is_text_picture(std::string_view bytes) {
 
 }  // namespace
 
-// A text file whose first column has names of points may begin with the mark of a picture, too.
+// Checks more than the mark, because a text file whose first column has names of points may begin with the
+// same characters as a picture.
 bool is_pnm(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (is_text_picture(bytes)) return true;

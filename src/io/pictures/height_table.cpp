@@ -88,7 +88,7 @@ bool is_height_table(const Source& source) {
 }
 
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels&) {
-  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // never empty after is_height_table()
+  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // is_height_table() has checked it
   SourceLines lines(source, layout.data_offset, layout.first_line - 1);
   std::vector<float> values;
   std::size_t rows = 0;

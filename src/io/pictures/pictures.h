@@ -39,7 +39,7 @@ Result<DepthImage> read_depth_bmp(const Source& source, const PictureChannels& c
 Result<DepthImage> read_esri_grid(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels& channels);
 
-// Messages about several channels end with this advice.
+// Error messages about pictures with several channels end with this advice.
 inline constexpr std::string_view way_out_of_colours =
     "; the option channel takes one of them, and depth-values luminance their brightness";
 

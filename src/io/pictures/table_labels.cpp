@@ -51,7 +51,7 @@ struct Progression {
 // files round them. Returns nothing if they are no progression.
 template <typename At>
 std::optional<Progression> progression(std::size_t begin, std::size_t size, const At& at) {
-  constexpr double rounding = .05;  // as a share of a step
+  constexpr double rounding = .05;  // largest deviation, as a share of a step
   if (begin + 4 > size) return std::nullopt;
   const double first = double{at(begin)}, last = double{at(size - 1)};
   const double step = (last - first) / static_cast<double>(size - 1 - begin);
