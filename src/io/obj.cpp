@@ -232,7 +232,8 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of the text in line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  // Colours of vertices: after the coordinates, after the coordinates and a weight of 1, and in comments.
+  // Colours of vertices: `colours_` follow the coordinates, `behind_weights_` follow a weight of 1, and
+  // `painted_` are in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
   std::vector<Corner> corners_;         // corners of all faces, one face after the other

@@ -19,7 +19,7 @@ constexpr double curve_tolerance_mm = .003;
 // a border is a fraction of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // as a fraction of the text's size
-constexpr double below_rim = .8;     // default height as a fraction of the rim's height
+constexpr double below_rim = .8;     // largest default height, as a fraction of the rim's height
 constexpr double least_mm = .01, most_mm = 1e4;
 
 // Returns the height of an ornament. If no height is given, it is `usual`, but lower than the rim.
