@@ -58,8 +58,7 @@ struct Ornament {
   std::optional<double> size_mm = {};  // height of capitals; diameter of beads; width of borders and drawings
   std::optional<double> height_mm = {};  // height above the ground; negative below it
   std::optional<double> inset_mm = {};   // distance from the rim to the ornament's outer edge
-  std::optional<double> angle_deg =
-      {};  // direction of the middle of a text on an arc, counter-clockwise from x
+  std::optional<double> angle_deg = {};  // angle of the middle of a text on an arc, counter-clockwise from x
   std::optional<Vec2> at_mm =
       {};                    // middle of a straight text or of a drawing, relative to the plate's middle
   bool is_engraved = false;  // cut into the ground with walls of 45 degrees, which meet in thin strokes

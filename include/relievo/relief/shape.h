@@ -25,8 +25,7 @@ enum class Style {
 // Height and saturation of a relief. The paper's height coefficient is alpha. For every beta > 0, u =
 // alpha^-beta is equivalent to alpha. At beta = 0, where alpha has no effect, u still gives every height.
 struct Compression {
-  double u =
-      1;  // [0, infinity]; 0: flat relief; infinity: normals unchanged, if beta > 0 only where k is not 0
+  double u = 1;  // [0, infinity]; 0: flat; infinity: normals unchanged (if beta > 0, only where k is not 0)
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points equally
   // If set, the curve replaces the exponential of equation (6): w_k = 1 - (1 - curve(|k|))^u. So u still
   // determines the height; at u = 1, w_k is the value of the curve. Beta then has no effect.
