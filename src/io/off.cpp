@@ -125,7 +125,7 @@ class OffReader {
     return end_row(words);
   }
 
-  // Colour components are integers up to 255, or fractions of 1 with a decimal point.
+  // Colour components are integers up to 255, or fractions from 0 to 1 with a decimal point.
   Result<void> take_colour(Words& words) {
     Colour colour;
     for (std::uint8_t& value : colour) {

@@ -41,7 +41,7 @@ struct BaseOptions {
   // For a fold: angle between each half and the plate. The default without height_mm is 15 degrees.
   std::optional<double> angle_deg;
   // Diameter of a cylinder or a dome. Without height_mm, the default for a cylinder is twice the plate's
-  // extent across its axis, and a dome becomes 0.15 of the plate's radius high.
+  // extent across its axis, and the default for a dome makes the dome 0.15 of the plate's radius high.
   std::optional<double> diameter_mm;
   // For a wave: distance from crest to crest. The default is half the plate's extent across the waves, but at
   // least four times height_mm.

@@ -103,9 +103,9 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // at the origin: x, y, z >= 0, with the bottom at z = 0 and the lowest point of the front at z =
 // thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
 // of the front, including ground and rim. The front's points and triangles come first, in their order. The
-// ground adds as points only the corners of the outline and of the rim's edges; ornaments add their own
-// points. If two points would coincide in single precision, z of the second one is changed by the smallest
-// step that separates them.
+// only points that the ground adds are the corners of the outline and of the rim's edges. Ornaments add their
+// own points. If two points would coincide in single precision, z of the second one is changed by the
+// smallest step that separates them.
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the

@@ -54,9 +54,8 @@ struct SlopeInput {
 };
 
 // Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
-// For the layered style it is layered_slope() with layer_weights(shape). In the layered style, the layers are
-// also multiplied by w_b and by the factor of the saturation, and the slopes are adapted to the shape's
-// light, if any.
+// For the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by
+// w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Return the layer weights of a layered shape: the first function for points of mean attention, the second

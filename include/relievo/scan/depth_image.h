@@ -42,7 +42,7 @@ enum class DepthValues {
   depth,      // increases away from the viewer; 0 is missing
   height,     // increases towards the viewer
   luminance,  // brightness (the luminance of colours), increases towards the viewer
-  inverse,    // proportional to one over the depth, as from estimators; 0 is infinitely far
+  inverse,    // proportional to one over the depth, as depth estimators give it; 0 is infinitely far
   automatic   // to be determined by the program that reads the file; depth_cloud() treats it as `depth`
 };
 

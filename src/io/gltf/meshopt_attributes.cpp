@@ -72,9 +72,9 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
          std::uint32_t{bytes[3]} << 24;
 }
 
-// Computes a channel of the next element from the same channel of the last one. In mode 0, `differences` are
-// four differences of bytes. In mode 1 they are two differences of 16-bit words. Otherwise they are bits to
-// flip, after a rotation to the left by the mode's upper four bits.
+// Computes a channel of the next element from the same channel of the previous element. In mode 0,
+// `differences` are four differences of bytes. In mode 1 they are two differences of 16-bit words. Otherwise
+// they are bits to flip, after a rotation to the left by the mode's upper four bits.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)

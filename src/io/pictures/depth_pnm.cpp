@@ -66,7 +66,8 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
   return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
 }
 
-// Sets the values from numbers of `bytes` bytes, a template argument so that the compiled code is fast.
+// Sets the values from numbers of `bytes` bytes. `bytes` is a template argument, so that the compiled code is
+// fast.
 template <unsigned bytes>
 Result<void> fill_from(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
                        const PnmValues& stored, Image<float>& values) {

@@ -56,7 +56,7 @@ struct StoredPixels {
 // Returns an error if there are too many pixels, or more than the file contains.
 Result<void> check_room(const Source& source, const StoredPixels& stored);
 
-// Red, green and blue of a pixel; in a grey picture only the first counts.
+// Red, green and blue of a pixel; in a grey picture only the first value is used.
 using PixelColour = std::array<float, 3>;
 
 // Returns the value of a pixel with `channels` channels. Returns nothing if the channels differ, as in a
