@@ -77,8 +77,8 @@ class LiveModel {
   // have changed since the last call.
   Result<ReliefOptions> with_width(const ReliefOptions& options);
 
-  // Returns the largest width that fits into the plate of the last call of with_width(); nothing if its
-  // options gave the plate no size.
+  // Returns the largest width that fits into the plate of the options in the last call of with_width();
+  // nothing if these options gave the plate no size.
   std::optional<double> most_width_mm() const;
 
   double mm_per_unit(const ReliefOptions& options) const;

@@ -47,7 +47,7 @@ struct ScanReport {
 // Facts about a relief, and the options that were used.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
-  Method method = Method::paper;  // if it has no shape, alpha, beta, gamma and u have no meaning
+  Method method = Method::paper;  // for baselines, alpha, beta, gamma and u have no meaning
   // NaN if beta is 0 or there is a tone curve, because then u determines the height, and alpha has no effect.
   double alpha = 0;
   double beta = 0, gamma = 0;
@@ -57,12 +57,12 @@ struct ReliefReport : ScanReport {
   std::optional<double> height_usual_mm;  // default height if none was requested, see effective_height_mm()
   double height_mm = 0;        // height of the front above its base, from the lowest to the highest point
   double below_ground_mm = 0;  // the part of height_mm below the flat ground; for a die, all of height_mm
-  double steepest_deg = 0;     // steepest slope of the front's triangles, rounded as in files
+  double steepest_deg = 0;     // steepest slope of the front's triangles, with corners in single precision
 
   // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
-  // exact in x and y. In z it keeps the uncompressed depth of the model, whose lowest visible point is on the
-  // ground (with a curved base, on the ground in the plate's middle). For a mirrored form `rotation` includes
-  // the reflection.
+  // exact in x and y. In z it keeps the uncompressed depth of the model. The model's lowest visible point is
+  // mapped to the ground or, with a curved base, to the ground in the plate's middle. For a mirrored form
+  // `rotation` includes the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
@@ -72,14 +72,14 @@ struct ReliefReport : ScanReport {
   OrnamentFacts ornaments;
   std::optional<double> rim_height_mm;  // above the ground; empty without a rim
 
-  // The largest height difference between the simplified front and the front with all samples. It is set if a
-  // tolerance or a number of triangles was requested.
+  // The largest height difference between the simplified front and the front before simplification. It is set
+  // if a tolerance or a number of triangles was requested.
   std::optional<double> simplification_error_mm;
-  // Numbers of triangles: of the front, and of the front with all samples.
+  // Numbers of triangles: of the final front, and of the front before simplification.
   std::size_t front_triangles = 0, full_triangles = 0;
 
   // The dimensions of a wrap: the diameter of the ground, the angle that the plate covers, and the length of
-  // one degree on the ground, which is the same in the flat plate.
+  // one degree on the ground, which bending does not change.
   struct Wrapped {
     double diameter_mm = 0, turn_deg = 0, mm_per_degree = 0;
     bool is_inside = false;       // whether the relief is on the inner side
@@ -89,7 +89,7 @@ struct ReliefReport : ScanReport {
 
   // Facts that programs may warn about.
   bool has_idle_alpha = false;     // whether an alpha was given that has no effect
-  bool has_needed_steps = false;   // whether steps at depth jumps exceed the request to reach the height
+  bool has_needed_steps = false;   // whether the height needed more steps at depth jumps than requested
   std::vector<SampleNote> sample;  // notes on the sampling; empty if the caller prepared the model
 };
 
@@ -116,14 +116,15 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
-// Returns an error of kind option if the model cannot make the relief of the options: it was not prepared for
-// their method (ReliefModel::serves()); dark lines are to be lowered, but it has no colours; light or
-// attention is given, but it has only control points; or a stroke protects, but one model of its scene has
-// its own height.
+// Returns an error of kind option if the model cannot make the relief of the options. The reasons are:
+// - The model was not prepared for the options' method, see ReliefModel::serves().
+// - The options lower dark lines, but the model has no colours.
+// - The options have a light or attention, but the model has only control points.
+// - A stroke uses Brush::protect, but a model of the scene has its own height, see Pose::height.
 Result<void> check_model(const ReliefModel& model, const ReliefOptions& options);
 
-// Returns an error of kind option if, for a relief of that height, the bevel of the options' rim is closer to
-// the vertical than the draft angle allows. make_relief() includes this check.
+// Returns an error of kind option if, for a relief of height `height_mm`, the bevel of the options' rim is
+// closer to the vertical than the options' draft angle allows. make_relief() includes this check.
 Result<void> check_rim(const ReliefOptions& options, double height_mm);
 
 // Samples the points of a file for the view, prepares their model, and makes its relief. scene.h has the same
@@ -138,9 +139,9 @@ Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progre
 Shape shape_of(const ReliefOptions& options, double mm_per_unit = 1);
 
 // Returns the options with width_mm set. A given width stays. If only the size of the plate is given, the
-// width is the largest with which relief, margin and rim fit into the plate. Otherwise it is the default. A
-// height that is a share of the diagonal is converted to mm. make_relief() includes this step. Errors: kind
-// option if the plate is too small.
+// width is the largest with which relief, margin and rim fit into the plate. Otherwise the width is the
+// default. A height that is a share of the diagonal is converted to mm. make_relief() includes this step.
+// Errors: kind option if the plate is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns the number of millimetres per unit of the surface, for the width from with_width().

@@ -26,7 +26,7 @@ enum class OptionStage {
   model,     // the system for the heights is prepared
   shape,     // the heights are found
   plate,     // the plate is built around the relief
-  body,      // the plate is bent and formed
+  body,      // the plate gets its base, form and wrap
   triangles  // the triangles of the solid are chosen, and its front is finished
 };
 
@@ -50,7 +50,7 @@ struct OptionTargets;
 struct OptionAccess {
   // Reads a value of the option's type into `to`. Error::input may be empty; then the caller sets it.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Returns the option's effective number, if it has one. A null pointer means that the option is a text.
+  // Returns the option's effective number, if it has one. If the pointer is null, the option is a text.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 
@@ -95,8 +95,8 @@ Result<void> check_range(const OptionRow& option, double number);
 // names and for values of the wrong type; those of check() and of the functions that parse texts.
 Result<ReliefOptions> parse_options(const OptionValues& values);
 
-// Returns the options of depth images that `values` has, except the camera. All other options are ignored.
-// Errors: kind option, naming the option.
+// Returns the options of depth images in `values`, except the camera. All other values are ignored. Errors:
+// kind option, naming the option.
 Result<DepthOptions> parse_depth(const OptionValues& values);
 
 // Returns whether the values ask to keep doubtful points, see ReadOptions. Other options are ignored. Errors:

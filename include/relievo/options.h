@@ -28,7 +28,7 @@ struct NumericOptions {
   std::optional<double> width_mm;     // longer side of the relief, without margin; see effective_width_mm()
   std::optional<double> diameter_mm;  // diameter of a round plate; default: the smallest that fits
   std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
-  std::optional<double> height_of_diagonal;  // the height as a share of L_d, in place of height_mm
+  std::optional<double> height_of_diagonal;  // height as a share of the diagonal L_d; replaces height_mm
   std::optional<double> mm_per_value;        // vertical scale, see relief_of_values(); default: none
   std::optional<double> ground_value;        // the value at the ground; only with mm_per_value
   std::optional<double> alpha;               // the paper's height coefficient; default: 4
@@ -84,9 +84,9 @@ struct ReliefOptions : NumericOptions {
   std::string text;  // text on the ground; none if empty
   TextArc text_arc = TextArc::straight;
   std::string font_name;                      // file of the text's font; the built-in font if empty
-  std::shared_ptr<const FontFile> font = {};  // contents of the font's file, which programs read
+  std::shared_ptr<const FontFile> font = {};  // contents of the font's file; the calling program reads them
   std::string ornament_source;                // file or JSON with a list of further ornaments
-  std::vector<Ornament> ornaments;            // the ornaments in the list, which programs read
+  std::vector<Ornament> ornaments;            // the ornaments in the list; the calling program reads them
   Form form = Form::relief;
   std::optional<Tool> tool;  // if given, the report states which part the tool reaches
   Finish finish = Finish::full;
@@ -94,14 +94,14 @@ struct ReliefOptions : NumericOptions {
   bool operator==(const ReliefOptions&) const = default;
 
   // The functions effective_...() return the given value of an option, or else its default. The defaults of
-  // Method::paper are the paper's, those of other methods preserve most of the model. The default width is for a
-  // plate without a given size, see with_width().
+  // Method::paper are those of the paper; other methods have their own. The default width is for a plate
+  // without a given size, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   // Returns the given method. Without one, returns linear if a vertical scale is given, the paper's method if
   // alpha is given, and layered otherwise.
   Method effective_method() const;
-  // Returns the given height or usual_height_mm(). Without a given height, returns nothing for a lithophane,
-  // for a vertical scale, and for the paper's method, whose height follows from the shape.
+  // Returns the given height. Without one, returns nothing for a lithophane, for a vertical scale, and for
+  // the paper's method, whose height follows from the shape; otherwise usual_height_mm().
   std::optional<double> effective_height_mm() const;
   // Returns the given height. Without one, returns 2.4 mm for a lithophane and 5 % of the width for other
   // forms (docs/decisions/default-height.md).
@@ -131,9 +131,10 @@ struct ReliefOptions : NumericOptions {
 };
 
 // Checks that all options are in their ranges and do not contradict each other. Contradictions are, among
-// others: two of height, height of the diagonal and alpha; control points in exact mode; alpha and a method
-// other than the paper's; saturation or detail for a method without them; a tone curve, steps or strokes for the
-// paper's method; a plate size that the outline cannot have. Errors: kind option, naming the option.
+// others: more than one of height, height as a share of the diagonal, and alpha; control points in exact
+// mode; alpha and a method other than the paper's; saturation or detail for a method without them; a tone
+// curve, steps or strokes for the paper's method; a plate size that the outline cannot have. Errors: kind
+// option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

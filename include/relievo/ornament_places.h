@@ -12,7 +12,8 @@ namespace relievo {
 struct Surface;
 
 // The place of an ornament: its outlines in mm from the middle of the plate, x to the right and y up. The
-// ornament covers the points whose winding number is not 0. If it cannot be made, there is an error.
+// ornament covers the points whose winding number is not 0. If the ornament cannot be made, only `error` is
+// set.
 struct OrnamentPlace {
   std::vector<std::vector<Vec2>> outlines = {};
   std::optional<Vec2> at_mm =
@@ -21,7 +22,7 @@ struct OrnamentPlace {
 };
 
 // Returns the places of options.all_ornaments(), in that order, on the flat plate of the surface's relief.
-// Does not check that the ornaments have room; make_relief() does. Errors: those of check() and with_width().
+// Only make_relief() checks that the ornaments have room. Errors: those of check() and with_width().
 Result<std::vector<OrnamentPlace>> ornament_places(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

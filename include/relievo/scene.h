@@ -101,10 +101,10 @@ double usual_points(const Scene& scene);
 // default usual_points().
 // - All meshes together give about the wanted number of points, and none on hidden parts. Clouds keep all
 // points except outliers.
-// - All models get about the same sampling distance. A scene of only clouds gets the distance of the finest
-// cloud, or the distance at which the wanted number of points is visible if that is larger. A scene with
-// meshes always gets the second of these. Finer clouds are subsampled to this distance. Much coarser clouds
-// keep only their visible points, and points are added between these.
+// - All models get about the same sampling distance. A scene with meshes gets the distance at which the
+// wanted number of points is visible. A scene of only clouds gets that distance or the distance of the finest
+// cloud, whichever is larger. Finer clouds are subsampled to this distance. Much coarser clouds keep only
+// their visible points, and points are added between these.
 // - Normals are estimated or oriented separately for each model.
 // - If any model has colours, models without colours become white.
 // - A single cloud that is not moved keeps all points of its file but outliers.

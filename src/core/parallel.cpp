@@ -33,14 +33,14 @@ struct Job {
   std::mutex failing{};               // guards the exception
   std::exception_ptr exception = {};  // exception of block first_failed
 
-  // The job stores an exception until its end. If the exception left the caller's block immediately, the
-  // other threads would continue with a destroyed job.
+  // Stores the exceptions of blocks, and throws none. If an exception left this function in the caller's
+  // thread, the job would be destroyed while other threads are still working on it.
   void work() noexcept {
     while (work_on_next()) {
     }
   }
 
-  // Returns false if no block was left.
+  // Processes the next block. Returns false if none was left.
   bool work_on_next() noexcept {
     const std::size_t b = next++;
     if (b >= blocks) return false;
@@ -64,8 +64,8 @@ struct Job {
     exception = std::current_exception();
   }
 
-  // Returns whether an earlier block has failed. Then this block may be waiting for a block that will never
-  // begin, so it is abandoned. A single thread would not have begun it.
+  // Returns whether an earlier block than `block` has failed. If so, `block` is abandoned, because it may be
+  // waiting for a block that will never begin. A single thread would not have begun `block`.
   bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
@@ -113,8 +113,8 @@ class Pool {
     job_ = nullptr;
   }
 
-  // Starts that many workers, or fewer if the system or its memory does not allow more. Results do not depend
-  // on the number of workers.
+  // Starts the given number of workers, or fewer if the system or its memory does not allow more. Results do
+  // not depend on the number of workers.
   void start(int workers) {
     is_stopping_ = false;
     try {
@@ -124,7 +124,8 @@ class Pool {
     }
   }
 
-  // Passes the job to the workers, unless they are processing another job. Returns whether it did.
+  // Passes the job to the workers, unless they are processing another job. Returns whether the workers have
+  // taken it.
   bool try_give(Job& job) {
     const std::lock_guard lock(mutex_);
     if (job_) return false;

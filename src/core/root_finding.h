@@ -10,8 +10,8 @@ namespace relievo {
 // is a finite double. If it does not, the returned x is just outside that range, and f(x) is not near 0.
 //
 // Increasing steps from 0 bracket the root. Then the Illinois variant of false position narrows the bracket:
-// if an end of the bracket stays, its value of f is halved. If 8 steps are not enough, every other step is a
-// bisection.
+// the value of f at an end of the bracket is halved if a step does not move that end. If 8 steps are not
+// enough, every other step is a bisection.
 template <typename F>
 double find_root(F&& f, double tolerance) {
   double a = 0, fa = f(a);

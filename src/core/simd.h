@@ -2,8 +2,8 @@
 // tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
-// GCC warns that the way in which such a vector is passed to a function depends on the instruction set. This
-// does no harm, because all our functions with vectors are inlined.
+// GCC warns that the instruction set determines how these vectors are passed to functions. This does no harm,
+// because all our functions with vectors are inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace relievo {
@@ -28,7 +28,7 @@ RELIEVO_INLINE double total(const Double4& four) {
   return (four[0] + four[1]) + (four[2] + four[3]);
 }
 
-// Returns whether RELIEVO_WIDE() shall use AVX2. This is initially true if the processor has AVX2.
+// Returns whether RELIEVO_WIDE() uses AVX2. Initially it does if the processor has AVX2.
 bool uses_avx2();
 
 template <typename F>

@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// std::to_chars() is independent of the locale, std::snprintf() is not. WebAssembly has no locales and uses
-// std::snprintf(), because the tables of std::to_chars() would take a tenth of the module's size.
+// std::to_chars() is independent of the locale, but std::snprintf() depends on it. WebAssembly has no locales
+// and uses std::snprintf(), because the tables of std::to_chars() would take a tenth of the module's size.
 void append(std::string& out, double number) {
   char digits[32];
 #if defined(__wasm__)

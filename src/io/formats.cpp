@@ -21,7 +21,7 @@ bool has_control_bytes(std::string_view bytes) {
   const auto is_control = [](char c) {
     return static_cast<unsigned char>(c) < ' ' && !is_blank(c) && c != '\n' && c != '\r' && c != '\x1A';
   };
-  const std::size_t enough = 4096;  // binary numbers contain a control byte much earlier
+  const std::size_t enough = 4096;  // bytes to examine; binary numbers have a control byte much earlier
   bytes = bytes.substr(0, enough);
   return std::any_of(bytes.begin(), bytes.end(), is_control);
 }

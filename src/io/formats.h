@@ -37,9 +37,9 @@ bool is_text(const Source& source);
 //   Vertices with opacity, f_dc, scale and rot are Gaussian splats. f_dc determines their colours; splats
 //   that are less than half opaque are left out. The splats of a .splat file are read in the same way.
 // - OBJ: v (also with weights and colours), vn and f, and the colours of ZBrush (#MRGB). The normal of a
-// vertex is the mean of the normals that its faces refer to. If no face refers to any normal, it is the vn
-// with the same index. Faces may refer to missing normals. If vertices have no colours, they get those of the
-// textures (map_Kd). A texture may have any format that is read as depths.
+// vertex is the mean of the normals that its faces refer to. If no face refers to a normal, the normal of a
+// vertex is the vn with the same index. Faces may refer to normals that the file lacks. If vertices have no
+// colours, they get those of the textures (map_Kd). A texture may have any format that is read as depths.
 // - STL, binary and ascii: coincident corners are merged; the file's normals are ignored.
 // - OFF, text and binary, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it. The triangles and points of the scene
@@ -63,11 +63,12 @@ bool is_text(const Source& source);
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of integers
 //   from 0 to 255 or of fractions from 0 to 1 are colours. A line of column names, if there is one,
-//   determines the columns instead. Other columns may contain anything. A first line with the number of
-//   points is allowed: more points may follow, but not fewer, and in PTS another number with its points.
+//   determines the columns instead. Other columns may contain anything. A first line may state the number of
+//   points, as in PTS. Fewer points are an error; more points, or another number with its points, may follow.
 //   Comments (#, //) are allowed. Numbers have a decimal point, or a decimal comma if semicolons separate
-//   them; they may be in quotation marks. If two columns of integers precede three of fractions, they are a
-//   scanner's rows and columns, and the next three are x y z. A first column of point numbers is skipped.
+//   them; they may be in quotation marks. If two columns of integers precede three columns of fractions, the
+//   integers are a scanner's rows and columns, and the fractions are x y z. A first column of point numbers
+//   is skipped.
 // - PTX: all scans, transformed by their matrices. Points at their scanner's origin count as not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
@@ -123,7 +124,7 @@ inline constexpr std::array formats = {
 // An unsupported format that errors can name, together with advice for users.
 struct ForeignFormat {
   std::string_view mark;  // text in the content, or extension of the name
-  std::string_view what;  // for messages
+  std::string_view what;  // description of the format, for messages
   std::size_t at = 0;     // position of the mark in the content
 };
 
@@ -192,7 +193,7 @@ inline constexpr std::array foreign_endings = {
     ForeignFormat{".ply", "a file that does not begin with the line 'ply'"}};
 
 // Returns a description, such as "a ZIP archive", of a file in an unsupported format or with unknown binary
-// data. Returns no description for text that does not begin like such a format.
+// data. Returns no description for text that does not begin like an unsupported format.
 std::string foreign_format(const Source& source);
 
 // Returns the names of the formats with that content, such as "PLY, PCD, LAS".

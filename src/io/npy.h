@@ -20,9 +20,10 @@ struct NpyArray {
 
   unsigned bytes_per_number() const { return samples.bits / 8; }
 
-  // Returns whether the array has points instead of depths. Points are an array whose last dimension has 3
-  // numbers, or a two-dimensional array with up to 9 columns of floating-point numbers and at least 16 times
-  // as many rows. Unsigned integers in more than two dimensions are colours, not points.
+  // Returns whether the array has points instead of depths. The array has points if its last dimension has 3
+  // numbers. It also has points if it is two-dimensional, with up to 9 columns of floating-point numbers and
+  // at least 16 times as many rows as columns. Unsigned integers in more than two dimensions are colours, not
+  // points.
   bool has_points() const;
 
   // Returns number `column` of the last dimension in row `row`; rows are counted through all other

@@ -1,5 +1,5 @@
-// Reads NumPy's arrays of points: rows of coordinates, and pictures with a point in each pixel, which
-// programs that estimate points from photographs write. Tested by tests/io/npy_test.cpp.
+// Reads NumPy's arrays of points. An array has rows of coordinates, or pictures with a point in each pixel.
+// Such pictures come from programs that estimate points from photographs. Tested by tests/io/npy_test.cpp.
 #include <algorithm>
 
 #include "io/formats.h"
@@ -11,7 +11,8 @@
 namespace relievo::io {
 namespace {
 
-// Returns the number of points: the product of all sizes but the last. Error: the file has fewer points.
+// Returns the number of points: the product of all sizes but the last. Errors: kind input if the file has
+// fewer points.
 Result<std::size_t> count_rows(const Source& source, const NpyArray& array) {
   const std::size_t room = source.bytes.size() - array.data;
   const std::size_t row_bytes = array.bytes_per_number() * array.sizes.back();

@@ -232,10 +232,11 @@ class ObjReader {
   std::size_t first_line_ = 0;  // number of the first line of the text in line_
   std::vector<Vec3> points_, normals_;
   ObjTextures textures_;
-  // Colours of vertices: after the coordinates, after the coordinates and a weight of 1, and in comments.
+  // Colours of vertices: `colours_` follow the coordinates, `behind_weights_` follow a weight of 1, and
+  // `painted_` are in comments.
   std::vector<Vec3f> colours_, behind_weights_, painted_;
   std::size_t curves_ = 0, first_curve_line_ = 0;
-  std::vector<Corner> corners_;         // all faces
+  std::vector<Corner> corners_;         // corners of all faces, one face after the other
   std::vector<std::size_t> face_ends_;  // per face: index after its last corner
   Index highest_vertex_ = 0;            // highest index of a vertex in a face
   std::size_t highest_line_ = 0;        // line of the face with that index
@@ -243,7 +244,7 @@ class ObjReader {
 
 }  // namespace
 
-// Recognises a text by the first word of its lines, because OBJ has only few such words.
+// Recognises a text by the first words of its lines, because only few words can begin a line of OBJ.
 bool is_obj(const Source& source) {
   if (!foreign_format(source).empty()) return false;
   if (has_ending(source.name, ".obj")) return true;

@@ -103,7 +103,7 @@ void ObjTextures::add_colours(const Source& source, RawCloud& raw) const {
     if (use.coordinates >= coordinates_.size() || !of_materials[use.material]) continue;
     const auto [u, v] = coordinates_[use.coordinates];
     raw.cloud.colours[i] =
-        of_materials[use.material]->at(double{u}, 1 - double{v});  // v = 0 is the lower edge
+        of_materials[use.material]->at(double{u}, 1 - double{v});  // v = 0 is the picture's lower edge
   }
 }
 

@@ -62,8 +62,8 @@ class OffReader {
     return Words();
   }
 
-  // Returns the next word of this line or, because the format is free-form, of a later line. In the latter
-  // case sets is_wrapped_.
+  // Returns the next word of this line or, because the format is free-form, of a later line. If the word is
+  // in a later line, sets is_wrapped_.
   std::string_view next_word(Words& words) {
     std::string_view word = words.next();
     while (word.empty() && !is_at_end_) {
@@ -125,7 +125,7 @@ class OffReader {
     return end_row(words);
   }
 
-  // Colour components are integers up to 255, or fractions of 1 with a decimal point.
+  // Colour components are integers up to 255, or fractions from 0 to 1 with a decimal point.
   Result<void> take_colour(Words& words) {
     Colour colour;
     for (std::uint8_t& value : colour) {
@@ -160,7 +160,8 @@ class OffReader {
     return lines_.fail(expected_corners(corners_, cloud_.points));
   }
 
-  // Returns whether the words after a face look like another face. A face's colour usually does not.
+  // Returns whether the words after a face look like another face. The numbers of a face's colour usually do
+  // not look like a face.
   static bool is_face(Words words) {
     const auto length = parse_integer(words.next());
     std::int64_t corners = 0;

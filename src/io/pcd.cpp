@@ -21,7 +21,7 @@ struct PcdHeader {
   PcdData data = PcdData::ascii;
   Records records;                       // layout of the points; ascii files use only `count`
   std::vector<std::size_t> field_sizes;  // bytes of each field of a point
-  std::size_t lines = 0;                 // lines of the header
+  std::size_t lines = 0;                 // number of lines of the header
   std::size_t columns_of_picture = 0;    // columns of an organised cloud, else 0
   // For ascii rows: the number of words, and the indices of the words to read.
   std::size_t columns = 0;

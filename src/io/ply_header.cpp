@@ -98,7 +98,7 @@ class PlyHeaderReader {
     if (!has_format_) return lines_.fail("expected a line 'format ...' before end_header, found none");
     header_.lines = lines_.number();
     header_.data_offset = lines_.offset();
-    // If lines end with CR alone, an LF after the last one already belongs to the data.
+    // If lines end with CR alone, an LF after the header's last CR already belongs to the data.
     const std::string_view bytes = lines_.source().bytes;
     const std::size_t first_end = bytes.find_first_of("\r\n");
     const bool ends_with_cr_alone = bytes.substr(first_end, 2) != "\r\n" && bytes[first_end] == '\r';

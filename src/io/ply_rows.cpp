@@ -269,8 +269,8 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  // Returns the length of the list that begins here. Returns an error if the file is too short for that many
-  // values.
+  // Returns the length of the list that begins at the current byte. Returns an error if the file is too short
+  // for that many values.
   Result<std::size_t> list_length(const PlyProperty& list) {
     if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
     double length = 0;

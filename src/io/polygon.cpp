@@ -16,8 +16,8 @@
 namespace relievo::io {
 namespace {
 
-// The largest negative area of a triangle, as a share of the polygon's area. It is not 0, because files round
-// collinear corners to floats.
+// The largest magnitude that a triangle's negative area may have, as a share of the polygon's area. It is not
+// 0, because files round collinear corners to floats.
 constexpr double rounding = 1e-6;
 
 // Limit for non-convex polygons, for which the time is quadratic.
@@ -74,7 +74,8 @@ class EarClipper {
   // Returns twice the signed area of the triangle at corner i.
   double turn(Index i) const { return cross(at_[i] - at_[before_[i]], at_[next_[i]] - at_[before_[i]]); }
 
-  // Returns the next ear; if there is none, a corner whose triangle has almost no area.
+  // Returns the next ear. If there is none, returns a corner whose triangle has almost no area; if there is
+  // no such corner, returns nothing.
   std::optional<Index> find_ear(Index from, std::size_t left) const {
     std::optional<Index> flat;
     for (std::size_t k = 0; k < left; ++k, from = next_[from]) {
@@ -109,7 +110,7 @@ class EarClipper {
     return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
   }
 
-  // Cuts the ear off. Only its two neighbours can become ears because of that.
+  // Cuts the ear off. This changes only its two neighbours, so that only they can become ears.
   void cut(Index ear) {
     const Index before = before_[ear], next = next_[ear];
     next_[before] = next;

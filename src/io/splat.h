@@ -8,8 +8,8 @@
 
 namespace relievo::io {
 
-// The logarithm of the third scale, 0, of splats that are flat discs. Files state only their other two
-// scales.
+// The logarithm of the third scale of splats that are flat discs. This scale is 0; files state only the other
+// two scales.
 constexpr double no_depth = -std::numeric_limits<double>::infinity();
 
 // Returns the unit vector along which a splat is thinnest. Its sign is arbitrary. `log_scales` are the

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t header_size = 84, triangle_size = 50;
 
 // Returns whether a file is binary. Some binary files begin with "solid" although the format forbids it, and
-// some text files do not. A file is binary if its size follows from the number of triangles, or if it has a
-// zero byte or another control character. In any binary file of less than 800 MB the number of triangles
-// contains a zero byte.
+// some text files do not begin with it. A file is binary if its size follows from the number of triangles, or
+// if it has a zero byte or another control character. In any binary file of less than 800 MB the number of
+// triangles contains a zero byte.
 bool is_binary(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (bytes.size() < header_size) return has_control_bytes(bytes);

@@ -85,15 +85,15 @@ Result<Cloud> take_sample(Rows& rows) {
   return sample;
 }
 
-// Values that are estimated from the sample.
+// Values that are estimated from a sample of the cloud's points.
 struct Scout {
   Vec3 middle;                // median of the points
   double outlier_radius = 0;  // points farther from the middle are outliers
   float sign = 1;             // -1 if the normals point inwards
 };
 
-// Estimates the values. The outlier radius is defined as in outliers(): 20 times the distance within which 90
-// % of the points are.
+// Estimates the values of Scout. The outlier radius is defined as in outliers(): 20 times the distance within
+// which 90 % of the points are.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -210,7 +210,7 @@ class ViewGrid {
   struct Sum {
     Vec3 at = Vec3::Zero();
     Vec3f normal = Vec3f::Zero();
-    // Integers, because adding 1 to a float above 2^24 has no effect.
+    // The sums are integers, because adding 1 to a float above 2^24 has no effect.
     std::array<std::uint32_t, 3> colour = {};
     std::uint32_t count = 0;
   };

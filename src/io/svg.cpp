@@ -200,7 +200,8 @@ class PathPen {
   Vec2 pen_ = Vec2::Zero(), start_ = Vec2::Zero(), control_ = Vec2::Zero();
 };
 
-// Returns the value of a property of an element, which stands in its style or in the attribute of that name.
+// Returns the value of a property of an element. The property is in the element's style or in an attribute
+// with the property's name.
 std::string_view property(const XmlElement& element, std::string_view name) {
   const std::string_view style = element.attribute("style");
   for (std::size_t at = 0; at < style.size();) {

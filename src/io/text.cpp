@@ -17,7 +17,8 @@ bool is_tiny(std::string_view word) {
   return word.substr(0, word.find('.')).find_first_of("123456789") == std::string_view::npos;
 }
 
-// Returns the word without a plus sign. Some programs write it, but from_chars refuses it.
+// Returns the word without a plus sign at its beginning. Some programs write this sign, but from_chars
+// refuses it.
 std::string_view without_plus(std::string_view word) {
   const bool has_plus = word.size() > 1 && word[0] == '+' && word[1] != '-';
   return word.substr(has_plus ? 1 : 0);

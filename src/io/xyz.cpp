@@ -47,7 +47,7 @@ class XyzReader {
   }
 
   // Returns whether the line is the number of points of another scan. Such a line may follow when the last
-  // scan has as many points as promised. If it does, begins that scan.
+  // scan has as many points as promised. If the line is such a number, begins that scan.
   bool begins_block(std::string_view line) {
     if (!layout_.promised_points || promised_ != cloud_.size()) return false;
     const auto points = parse_integer(line);
@@ -189,16 +189,16 @@ std::vector<Row> first_rows(std::string_view data, const XyzLayout& layout) {
   return rows;
 }
 
-// Returns whether the first column grows from row to row. In samples of rows it may also stay the same,
-// because a row may be sampled twice.
+// Returns whether the first column grows from row to row. In samples of rows the number may also stay the
+// same, because a row may be sampled twice.
 bool grows(const std::vector<Row>& rows, bool is_sample) {
   return std::ranges::adjacent_find(rows, [&](const Row& a, const Row& b) {
            return !(a[0] < b[0] || (is_sample && a[0] == b[0]));
          }) == rows.end();
 }
 
-// Returns whether the first column numbers the points. It must have integers that grow from row to row, which
-// x of a surface does not, and the next three columns must have fractions in most rows.
+// Returns whether the first column numbers the points. It must have integers that grow from row to row,
+// unlike the x of a surface. The next three columns must have fractions in most rows.
 bool are_numbered(const std::vector<Row>& samples, const std::vector<Row>& first) {
   constexpr std::size_t fewest = 8;
   const auto has_no_row = [](const Row& row) { return row.size() < 4; };
@@ -297,8 +297,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   if (layout.columns < 4 && !has_name) return;
   const std::string_view data = source.bytes.substr(layout.data_offset);
   const auto rows = sample_rows(data, layout);
-  // If other rows begin with a number, the first column is not a name: a word in it replaces a missing
-  // coordinate.
+  // The first column has names only if no row begins with a number. Otherwise a word in it stands for a
+  // missing coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
   layout.has_scan_positions = !has_name && has_scan_positions(rows, layout.columns);

@@ -60,9 +60,9 @@ bool has_coordinates(const ColumnNames& names);
 bool has_degrees(const ColumnNames& names);
 
 // Set the columns of coordinates, normals and colours. take_columns() finds the columns by their names.
-// find_columns() finds normals and colours by their values in lines from the whole file. Its coordinates are
-// the first three columns, or the three after a scanner's row and column, a point's number or a name. There
-// can be a name only if `has_name` is set and no sampled line begins with a number.
+// find_columns() finds normals and colours by their values in lines from the whole file. It takes the first
+// three columns as coordinates, or the three after a scanner's row and column, a point's number or a name. It
+// expects a name only if `has_name` is set and no sampled line begins with a number.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
 void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
@@ -82,8 +82,8 @@ void find_normals_and_colours(const std::vector<std::vector<double>>& rows, std:
 // Returns a description of the columns, such as "6 columns with normals".
 std::string columns_text(const XyzLayout& layout);
 
-// Returns up to 256 rows of numbers from the whole file, except rows with a different number of columns.
-// Words that are not numbers become NaN.
+// Returns up to 256 rows of numbers from the whole file. Rows whose number of columns differs from the
+// layout's are left out. Words that are not numbers become NaN.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout);
 
 // Sets the separator, the decimal mark and the number of columns from a line of data, whose number is

@@ -20,7 +20,7 @@ std::string_view plain_name(std::string_view field) {
   return field.substr(first, field.find_last_not_of(around) + 1 - first);
 }
 
-// Returns the names of columns in a line. Their separator may differ from that of the data.
+// Returns the names of columns in a line. The separator of names may differ from the separator of the data.
 ColumnNames split_names(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("#/ \t\v\f"), line.size()));
   const std::size_t separator = line.find_first_of(line.contains(';')   ? ";"

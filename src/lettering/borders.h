@@ -25,7 +25,7 @@ Outlines bead_outlines(const BorderRow& row);
 // Returns ellipses that are tilted against the path, as the strands of a rope.
 Outlines rope_outlines(const BorderRow& row);
 
-// Returns the radius of the largest circle inside the polygon that represents a bead.
+// Returns the radius of the largest circle inside a bead, which is a polygon.
 double bead_radius(const BorderRow& row);
 
 // Returns the smaller half axis of a rope's ellipse.

@@ -15,11 +15,11 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Default sizes of ornaments. The size of texts is a fraction of the margin without its borders, that of
-// borders a fraction of the whole margin.
+// Default sizes of ornaments. The size of a text is a fraction of the margin without its borders. The size of
+// a border is a fraction of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // as a fraction of the text's size
-constexpr double below_rim = .8;     // default height as a fraction of the rim's height
+constexpr double below_rim = .8;     // largest default height, as a fraction of the rim's height
 constexpr double least_mm = .01, most_mm = 1e4;
 
 // Returns the height of an ornament. If no height is given, it is `usual`, but lower than the rim.
@@ -54,8 +54,9 @@ struct BaseCircle {
   Vec2 middle;
   double radius, angle, sign;  // sign: 1 if the text is read counter-clockwise, -1 if clockwise
 
-  // Returns the position of a point of the line: `along` is the distance of the point from the text's centre,
-  // and `letter` the distance of the centre of its letter from the text's centre.
+  // Returns the position on the plate of a point of the text. On the straight line of text, the point is
+  // `along` after the text's centre and `up` above the baseline. The centre of its letter is `letter` after
+  // the text's centre.
   Vec2 place(double along, double letter, double up, double read_radius) const {
     const double turn = angle + sign * letter / read_radius;
     const Vec2 outwards(std::cos(turn), std::sin(turn)),
@@ -92,7 +93,8 @@ class TextPlacer {
     const bool is_bottom = ornament_.arc == TextArc::bottom;
     circle_ = {middle_of(frame_), radius_within(frame_) - inset - (is_bottom ? 0 : size_),
                to_radians(ornament_.angle_deg.value_or(is_bottom ? 270 : 90)), is_bottom ? 1. : -1.};
-    // At half the height of small letters, letters have the same distances as on a straight line.
+    // At half the height of lower-case letters, the distances between letters are the same as on a straight
+    // line.
     read_radius_ = circle_.radius + (is_bottom ? -.5 : .5) * line_.x_height * size_;
     const double way = 2 * std::numbers::pi * read_radius_;
     if (!(circle_.radius > size_) || length_ > way)
@@ -192,7 +194,7 @@ Result<RaisedShape> drawing_shape(const Ornament& ornament, const OrnamentFrame&
                      std::min(.25, *ornament.size_mm / 20)};
 }
 
-// Distances of a border from the rim.
+// The distance of a border from the rim, and its width.
 struct BorderSpan {
   double before_mm, width_mm;
 };

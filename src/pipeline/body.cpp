@@ -16,11 +16,13 @@
 namespace relievo {
 namespace {
 
-// The parts of the tolerance, as shares of it, that curved bases and flips of thin triangles' edges may use.
+// Shares of the tolerance that are reserved for later steps: bending triangles to a curved base, and flipping
+// edges of thin triangles.
 constexpr double bending_share = .25, turning_share = .01;
 // The tolerance if only the number of triangles is limited; it is about the precision of files.
 constexpr double least_error_mm = 1e-4;
-// The width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
+// The width of the bevel as a share of the rim's height. The bevel is 17 degrees off the vertical, so that a
+// die can be pulled off.
 constexpr double rim_bevel = .3;
 
 // The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of
@@ -28,13 +30,13 @@ constexpr double rim_bevel = .3;
 constexpr double front_share = .9995;
 constexpr double ornament_share = .997;  // front_share for walls of ornaments, whose corners are rounded
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
-constexpr double rounded_up = 1.002;     // curved rims are polygons, so bevels are steeper by up to this
+constexpr double rounded_up = 1.002;  // largest factor by which the polygon of a curved rim steepens bevels
 
 bool is_curved(const ReliefOptions& options) {
   return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
 }
 
-// Returns the least width of a bevel over this height that has this angle to the vertical.
+// Returns the least width of a bevel of this height whose angle to the vertical is at least `draft_deg`.
 double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
@@ -97,7 +99,8 @@ std::string takers_of_room(const ReliefOptions& options) {
   return cat("margin", last.empty() ? " and rim" : ", rim", last);
 }
 
-// Returns an error if a named font or ornament file was not read, because nothing replaces it.
+// Returns an error if the options name a font or ornament file that was not read, because nothing replaces
+// the file.
 Result<void> check_files(const ReliefOptions& options) {
   if (!options.font_name.empty() && !options.font)
     return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));

@@ -12,7 +12,7 @@ namespace relievo {
 // Returns whether the form swaps left and right.
 bool is_mirrored(Form form);
 
-// Returns whether the solid must be simplified after sampling.
+// Returns whether the options ask for a simplified solid.
 inline bool is_simplified(const ReliefOptions& options) {
   return options.tolerance_mm || options.triangles;
 }
@@ -20,21 +20,22 @@ inline bool is_simplified(const ReliefOptions& options) {
 // Returns the width and height of the plate in millimetres; 0 if they are computed from the size of the relief.
 Vec2 plate_size_of(const ReliefOptions& options);
 
-// Returns the plate options for a relief with that height. The options must have passed check(). If they ask for
-// simplification, `options.triangles` is the limit for the triangles of the front, not for those of the solid.
+// Returns the plate options for a relief with that height. The options must have passed check(). If the
+// options ask for simplification, `options.triangles` limits the triangles of the front, not those of the
+// solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
 // Returns the limits for simplifying the front. A curved base takes a part of the tolerance, which is
 // subtracted here. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() simplifies the solid, because simplified_front() cannot. This is so for curved ground,
-// whose triangles are not triangles of the front, and for the finish `reachable`. It is never so for the outline
-// `none`, or if the options do not ask for simplification.
+// Returns whether make_plate() simplifies the solid, because simplified_front() cannot. Returns true for
+// curved ground, whose triangles are not triangles of the front, and for the finish `reachable`. Always
+// returns false for the outline `none`, or if the options do not ask for simplification.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
-// Returns the options with their height in mm; it is converted if it is given as a share of the diagonal. The options
-// must have a width.
+// Returns the options with a height in mm. A height that is given as a share of the diagonal is converted.
+// The options must have a width.
 ReliefOptions with_height(const Surface& surface, ReliefOptions options);
 
 // A solid, and the same solid before it was bent around a wrap.
@@ -54,12 +55,12 @@ Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const Rel
 struct FormedFront {
   HeightFieldMesh front;
   double height_mm = 0;                // distance from the lowest to the highest point
-  double simplification_error_mm = 0;  // largest difference from the front with all samples
-  std::size_t full_triangles = 0;      // triangles of the front with all samples
+  double simplification_error_mm = 0;  // largest height difference from the front before simplification
+  std::size_t full_triangles = 0;      // number of triangles of the front before simplification
 };
 
-// Returns the heights in millimetres of the base under the points of an upright front; no heights for a
-// plane. Errors: those of plate_base().
+// Returns the heights in millimetres of the base under the points of a front of Form::relief; no heights for
+// a plane. Errors: those of plate_base().
 Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
 
 // Returns the surface's triangles as a front in millimetres, with the given heights of its points.

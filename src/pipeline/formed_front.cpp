@@ -40,8 +40,9 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   return is_smooth;
 }
 
-// Returns the distance between samples. The default is about a 700th of the width, because the eye cannot resolve
-// less when it sees the whole plate at arm's length. It is smaller if the surface's spacing is.
+// Returns the distance between samples. The default is about a 700th of the width, because the eye cannot
+// resolve smaller distances when it sees the whole plate at arm's length. If the surface's sampling distance
+// is smaller, that is the default.
 Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700, most_samples = 10'000;
   const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;
@@ -105,8 +106,8 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The largest number of simplifications. For a plane base the first estimate of the front's number of triangles is
-// already right.
+// The largest number of simplifications in search of the front's number of triangles. For a plane base the
+// first estimate is already right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
 
@@ -127,12 +128,13 @@ double count(const FormedBody& made) {
   return static_cast<double>(made.body.solid.triangles.size());
 }
 
-// Returns the body whose front has as many triangles as the limit for the solid allows. `full` is the front with all
-// samples, `whole` the body with all triangles.
+// Returns a body whose front has nearly as many triangles as the limit for the solid allows. `full` is the
+// front before simplification, and `whole` is the body that was made without the limit.
 Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole, const ReliefOptions& options,
                                Progress* progress) {
   const double most = *options.triangles, in_front = static_cast<double>(whole.body.plate().front_triangles);
-  // A relief without ground has its triangles twice: the bottom repeats the front.
+  // For a relief without ground, each triangle of the front counts twice, because the bottom repeats the
+  // front.
   const double sides = options.outline == Outline::none ? 2 : 1;
   double limit = (most - (count(whole) - sides * in_front)) / sides;
   double least = count(whole);

@@ -16,7 +16,7 @@ namespace {
 // From this value of u, the coefficient in equation (6), all weights are exactly 1.
 constexpr double uncompressed_u = 1e12;
 
-// While the picture moves, viewers do not notice when heights are scaled by up to this share.
+// While the picture moves, viewers do not notice that heights are wrong by up to this share.
 constexpr double moving_tolerance = .03;
 
 // Returns the sizes that determine the largest width of a relief in a plate of a given size.
@@ -136,13 +136,13 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
     const auto largest = relievo::with_width(model().surface(), sized);
     if (!largest)
       return relievo::with_width(model().surface(),
-                                 options);  // its error names the requested width
+                                 options);  // this call's error names the requested width
     state_->sizes = std::move(sizes);
     most_mm = largest->width_mm;
   }
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
-    return relievo::with_width(model().surface(), sized);  // its error says why the width is refused
+    return relievo::with_width(model().surface(), sized);  // this call's error says why the width is refused
   return with_height(model().surface(), std::move(sized));
 }
 

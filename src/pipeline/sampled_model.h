@@ -1,5 +1,5 @@
-// Prepares the model of a job's scene and returns it as a value, so that a caller who makes only one relief of it can
-// free its parts early.
+// Prepares the model of a job's scene and returns it as a value. A caller who makes only one relief of the
+// model can then free parts of it early.
 #pragma once
 
 #include <memory>

@@ -32,8 +32,9 @@ struct Parts {
   std::vector<SampleNote> notes;
 };
 
-// Appends a member that has one value per point, such as colours or own heights, from one group of points to another.
-// If only one of the groups has values, the points of the other group get `usual`.
+// Appends the values of a member with one value per point, such as colours or own heights, from one group of
+// points to those of another group. If only one of the groups has values, the points of the other group get
+// `usual`.
 template <typename T, typename Value>
 void append_member(T& to, const T& from, std::vector<Value> T::*member, const Value& usual) {
   if ((to.*member).empty() && (from.*member).empty()) return;
@@ -177,8 +178,8 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   return mesh;
 }
 
-// Brings clouds to the common spacing. Returns the points of all clouds except coarse ones. Of these, adds triangles
-// to parts.mesh.
+// Brings clouds to the common spacing. Returns the points of all clouds except coarse clouds. Adds coarse
+// clouds to parts.mesh as triangles.
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {

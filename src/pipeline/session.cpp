@@ -24,7 +24,7 @@ Cloud thinned(const Cloud& cloud, std::size_t most) {
   const double share = static_cast<double>(most) / static_cast<double>(cloud.size());
   const std::vector<Index> erased = indices_where(cloud.size(), [&](Index i) {
     double whole = 0;
-    // Modulo 1, multiples of phi are distributed evenly.
+    // The multiples of phi, modulo 1, are distributed evenly over [0, 1].
     return std::modf(std::numbers::phi * i, &whole) >= share;
   });
   return erase_points(cloud, erased);

@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_of_a_value = 40;  // most characters of a wrong value in a message
+constexpr std::size_t most_of_a_value = 40;  // largest number of characters that a message shows of a value
 
 std::string found(const Json& value) {
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -18,7 +18,7 @@ class ValueScale {
         centre_((surface.view.R_view_model * surface.centre).z()) {
     if (options.ground_value) {
       ground_ = *options.ground_value * sign();
-    } else if (!surface.units_per_value || units_per_value_ < 0) {  // otherwise ground_ is 0, sea level
+    } else if (!surface.units_per_value || units_per_value_ < 0) {  // otherwise ground_ stays 0 (sea level)
       ground_ = HUGE_VAL;
       for (const Vec3& p : surface.points) ground_ = std::min(ground_, rising(p));
     }
@@ -67,7 +67,7 @@ std::vector<BoundaryEdge> relief_edges(const Surface& surface) {
 }  // namespace
 
 std::vector<std::uint8_t> tile_edges(const Surface& surface) {
-  constexpr double near = .01;  // in rho; sides are straight up to rounding
+  constexpr double near = .01;  // distance from a side, in rho; rounding moves points off a straight side
   const std::vector<Side> sides = sides_of(surface);
   std::vector<std::uint8_t> is_on_side(surface.points.size());
   for (std::size_t i = 0; i < is_on_side.size(); ++i)

@@ -27,7 +27,7 @@ Place locate(const Leaf& leaf, double x, double v) {
 }
 
 // Returns the approximate distance to the outline, an oval with notches. It is the distance across the leaf
-// divided by sqrt(1 + slope^2), where slope is the slope of the outline, which is large in the notches.
+// divided by sqrt(1 + slope^2). The slope is that of the outline, and is large in the notches.
 double outline(const Leaf& leaf, const Place& at) {
   const double bent = at.vein * (1.25 - 0.25 * at.vein);
   const double oval = std::sqrt(std::max(1e-4, 4 * bent * (1 - bent)));

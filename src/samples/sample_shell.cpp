@@ -16,14 +16,15 @@ struct Whorl {
   double side;
 };
 
-// Returns the phase of the ribs, which bend forward on the flank, back, and forward again at the rim. The
-// edge of the aperture has the same shape.
+// Returns the phase of the ribs. From the seam outwards, the ribs bend forward on the flank, then back, and
+// forward again at the rim. The edge of the aperture has the same shape.
 double rib_phase(const Whorl& w) {
   const double sickle = 1.5 * std::sin(2 * pi * w.side) - 5.0 * square(square(1 - w.side));
   return ribs_per_turn * w.angle + sickle;
 }
 
-// The cosine and sine of a phase. Those of sums, and so of multiples, need no trigonometric function.
+// The cosine and sine of a phase. The cosine and sine of sums and multiples of phases are computed from them
+// without trigonometric functions.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }

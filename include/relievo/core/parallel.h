@@ -1,6 +1,6 @@
 // Runs loops in parallel. The library creates threads only here. On systems without threads, such as
-// WebAssembly, the calling thread does everything. Loops are divided into blocks whose limits depend on the
-// number of elements, but not on the number of threads, so results have the same bits for any number of
+// WebAssembly, the calling thread does everything. Loops are divided into blocks. Their limits depend on the
+// number of elements, but not on the number of threads, so that results have the same bits for any number of
 // threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
@@ -28,17 +28,17 @@ void set_thread_count(int threads);
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. If blocks throw, blocks that have not begun are skipped, and the exception
-// of the lowest throwing block is rethrown, which is the same for any number of threads. The calling thread
-// works alone in a nested call, and while the other threads serve another call.
+// are started in ascending order. If blocks throw, blocks that have not begun are skipped. The exception of
+// the lowest throwing block is rethrown, and that block is the same for any number of threads. In a nested
+// call, and while the other threads serve another call, the calling thread runs all blocks alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
 inline constexpr std::size_t default_grain = 4096;
 
-// Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
-// run concurrently, so f may write only data that belongs to its range. If f throws, some later ranges are
-// skipped, and the calling thread gets the exception; this holds for all functions below, too.
+// Calls f(begin, end) for consecutive ranges of at most `grain` elements that together cover [0, n). The
+// ranges run concurrently, so f may write only data that belongs to its range. If f throws, some later ranges
+// are skipped, and the calling thread gets the exception; this holds for all functions below, too.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {
@@ -81,8 +81,8 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
 }
 
 // One flag per block of a parallel call, for blocks that need the results of earlier blocks. A block may wait
-// only for a lower block of the same call. There is no deadlock: blocks are started in order, so the lower
-// block is running or done.
+// only for a lower block of the same call. Waiting cannot deadlock, because blocks are started in order, so
+// that the lower block is running or done.
 class BlockFlags {
  public:
   explicit BlockFlags(std::size_t blocks = 0) : flags_(blocks) {}
@@ -111,7 +111,8 @@ using Mutex = std::mutex;
 #endif
 using Lock = std::lock_guard<Mutex>;
 
-// A value that several threads share. with() is the only access to it, and runs one caller at a time.
+// A value that several threads share. Only with() gives access to the value, and only to one thread at a
+// time.
 template <typename T>
 class Guarded {
  public:

@@ -22,8 +22,8 @@ struct StageTime {
 // and is_cancelled() at any time.
 class Progress {
  public:
-  // A function that is called at the start of each stage, with its name and the fraction done, in [0, 1],
-  // which never decreases.
+  // A function that is called at the start of each stage, with the stage's name and the fraction of the call
+  // that is done. The fraction is in [0, 1] and never decreases.
   using Watcher = std::function<void(std::string_view stage, double fraction)>;
 
   Progress() = default;

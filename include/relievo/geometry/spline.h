@@ -1,6 +1,6 @@
-// Fits multilevel B-splines, which are smooth functions of the plane, to values at scattered sites. The sites
-// are fixed; the values differ from function to function. Source: Lee, Wolberg and Shin, "Scattered Data
-// Interpolation with Multilevel B-Splines", 1997.
+// Fits multilevel B-splines, which are smooth functions of a position in the plane, to values at scattered
+// sites. The sites are fixed; the values differ from function to function. Source: Lee, Wolberg and Shin,
+// "Scattered Data Interpolation with Multilevel B-Splines", 1997.
 //
 // The functions are uniform cubic B-splines on lattices; the cells of a level are half as wide as those of
 // the previous level. Each level is fitted to the residual of the coarser levels.
@@ -18,20 +18,20 @@ struct SplineOptions {
   double cell = .01;                            // width of the cells of the finest lattice, > 0
   // Number of lattices, [1, 16]; the cells of each are twice as wide as those of the next finer one.
   int levels = 5;
-  // The levels from `first_fitted` to `last_fitted` are fitted; level 0 is the coarsest. Each other level
-  // only represents the function of the coarser levels on its finer lattice.
+  // The levels from `first_fitted` to `last_fitted` are fitted; level 0 is the coarsest. A level outside this
+  // range is not fitted; it represents the function of the coarser levels on its own, finer lattice.
   int first_fitted = 0, last_fitted = 15;
   // The damping of MultilevelSpline::fit(), in units of the mean weight of the sites, >= 0.
   double damping = 0;
 };
 
-// A point relative to the finest lattice.
+// The position of a point on the finest lattice.
 struct SplinePlace {
   Index node = 0;              // lower left node of the 4 x 4 nodes that influence the point
   std::uint16_t x = 0, y = 0;  // position in the middle cell of the 4 x 4 nodes, in units of 1/65536
 };
 
-// A function of the plane: the sum of a constant and a uniform cubic B-spline.
+// A function of a position in the plane: the sum of a constant and a uniform cubic B-spline.
 struct SplineFunction {
   float mean = 0;
   std::vector<float> nodes;  // values at the nodes of the finest lattice, row by row
@@ -75,8 +75,8 @@ class MultilevelSpline {
   // to another spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // The values of two functions, without their means. evaluate() writes a value of each function for each
-  // position. It uses only the calling thread.
+  // The values of two functions, without their means. For each position, evaluate() writes one value of
+  // function a and one of function b. It uses only the calling thread.
   struct PairValues {
     std::span<float> a, b;
   };
@@ -86,7 +86,7 @@ class MultilevelSpline {
  private:
   struct Position {
     Index node = 0;
-    float x = 0, y = 0;  // position in the middle one of the cells between the 4 x 4 nodes, in [0, 1]
+    float x = 0, y = 0;  // position in the middle cell of the 4 x 4 nodes, in [0, 1]
   };
   struct Site {
     Eigen::Array4f x, y;  // weights of the 4 nodes along each axis

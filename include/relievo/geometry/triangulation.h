@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// A Delaunay triangulation of given points. All triangles are counter-clockwise, together they cover the
-// convex hull, and no point is strictly inside a triangle's circumcircle. These properties hold exactly.
+// A Delaunay triangulation of given points. All triangles are counter-clockwise. Together they cover the
+// convex hull. No point is strictly inside a triangle's circumcircle. These properties hold exactly.
 struct Triangulation {
   std::vector<Triangle> triangles;
   // neighbours[t][i] is the triangle on the other side of the edge opposite to corner i of t; no_index on the
@@ -26,8 +26,8 @@ struct Triangulation {
 // hull.
 // - Cocircular points are triangulated in one of the valid ways, which is the same for the same input on
 // every machine.
-// - The result is empty unless there are fewer than 2^29 - 1 points, and all coordinates are 0 or have a
-// magnitude in [1e-60, 1e70], where the predicates are exact.
+// - The result is empty for 2^29 - 1 points or more. It is also empty if a coordinate is not 0 and has a
+// magnitude outside [1e-60, 1e70], because the predicates would not be exact there.
 //
 // Time: O(n log n) for scans, grids and clusters; 340k random points take 0.13 s, a regular grid 0.4 s.
 // Memory: about 150 bytes per point.

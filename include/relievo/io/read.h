@@ -36,13 +36,13 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 // too large for double are infinite.
 //
 // `beside` is called at most once for each other file that the file refers to. Without `beside`, a reference
-// to another file is an error; if the other file has only colours, it is a remark.
+// to another file is an error. If the other file has only colours, the reference leads to a remark instead.
 //
 // Errors (kind input) state the line or the byte and what was expected there, or name an unsupported format,
 // such as "a PTX file". It is an error if no point has finite coordinates. It is also an error if a header
 // promises more than the bytes contain; no memory is allocated for the missing part. LAS is an exception: an
-// incomplete file is read to its end. Reading always terminates: there is no recursion, and the time is
-// linear in the number of bytes, except that concave polygons of at most 10,000 corners take quadratic time.
+// incomplete file is read to its end. Reading uses no recursion. Its time is linear in the number of bytes,
+// except that concave polygons of at most 10,000 corners take quadratic time.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const FilesBeside& beside = {});
 
@@ -57,7 +57,8 @@ struct ReadOptions {
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const ReadOptions& options);
 
-// Returns messages about the points and normals of a file that were left out, and the file's remarks.
+// Returns messages about points and normals that were left out when the file was read, and the file's
+// remarks.
 std::vector<std::string> remarks_on(const CloudFile& file);
 
 // Returns whether a file that begins with these bytes is a picture, an array or a table of heights.

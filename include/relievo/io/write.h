@@ -48,16 +48,16 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = 
 // Keys and values of a PNG's tEXt chunks.
 using PngTexts = std::span<const std::pair<std::string, std::string>>;
 
-// The texts and the pixel size in a PNG file. Keys have 1 to 79 Latin-1 characters, values at least one
-// character. A positive `mm_per_pixel` is stored as the physical pixel size (pHYs).
+// The texts and the pixel size in a PNG file. Keys have 1 to 79 Latin-1 characters, and values have at least
+// one character. A positive `mm_per_pixel` is stored as the physical pixel size (pHYs).
 struct PngLabel {
   PngTexts text = {};
   double mm_per_pixel = 0;
 };
 
-// Return the image as PNG. The result is empty if the image has no pixels, a side of more than a million
-// pixels, or a number of pixels that is not width times height, or if `label` does not satisfy the rules of
-// PngLabel.
+// Return the image as PNG. The result is empty if the image has no pixels, if a side has more than a million
+// pixels, or if the number of pixels is not width times height. It is also empty if `label` does not satisfy
+// the rules of PngLabel.
 std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image, const PngLabel& label = {});
 std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& label);

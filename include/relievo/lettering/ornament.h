@@ -21,7 +21,7 @@ enum class TextArc {
   straight,  // below the relief
   top,       // on a circle around the plate's middle, clockwise
   bottom,    // on the same circle, counter-clockwise
-  around     // all around that circle, from the left, with evenly spaced clusters of characters
+  around     // all around that circle, beginning at the left, with equal gaps between glyph clusters
 };
 
 inline constexpr std::array<Choice<TextArc>, 4> text_arc_choices{{{"straight", TextArc::straight},
@@ -57,12 +57,12 @@ struct Ornament {
   TextArc arc = TextArc::straight;
   std::optional<double> size_mm = {};  // height of capitals; diameter of beads; width of borders and drawings
   std::optional<double> height_mm = {};  // height above the ground; negative below it
-  std::optional<double> inset_mm = {};   // distance from the rim to the outer edge
-  std::optional<double> angle_deg = {};  // middle of a text on an arc, counter-clockwise from the x axis
+  std::optional<double> inset_mm = {};   // distance from the rim to the ornament's outer edge
+  std::optional<double> angle_deg = {};  // angle of the middle of a text on an arc, counter-clockwise from x
   std::optional<Vec2> at_mm =
       {};                    // middle of a straight text or of a drawing, relative to the plate's middle
   bool is_engraved = false;  // cut into the ground with walls of 45 degrees, which meet in thin strokes
-  double tracking_mm = 0;    // additional space between clusters
+  double tracking_mm = 0;    // additional space between glyph clusters, such as letters
   std::optional<double> count = {};              // number of beads or strands
   std::vector<std::vector<Vec2>> outlines = {};  // drawing: any unit, y up; filled by nonzero winding
 
@@ -77,8 +77,8 @@ struct OrnamentFacts {
 };
 
 // Checks that the text can be typeset in its font. Errors: kind option for a font that cannot be read, for a
-// text without visible characters, for a text that is too long, and for characters missing in the font, which
-// the message names.
+// text that is too long or has no visible characters, and for characters missing in the font. The message
+// names the missing characters.
 Result<void> check_text(const Ornament& ornament);
 
 }  // namespace relievo

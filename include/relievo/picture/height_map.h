@@ -50,15 +50,15 @@ struct HeightsMm {
   std::string note = {};          // text that is appended to the description in a file
 };
 
-// Returns the front of a solid as heights above the zero of the options, or as depths below its highest
-// point. A pixel has the height of the solid's triangle at its centre, also on the outline. Pixels beside the
-// plate have the height of the front's lowest point. If only the relief is shown, pixels beside it have the
-// height of the ground. The shown part is centred in the picture. The result has no pixels if the solid is
-// empty, or if the number of pixels along a side would not be in [1, 32768].
+// Returns the front of a solid as heights above the zero height (MapZero) of the options, or as depths below
+// the front's highest point. A pixel has the height of the solid's triangle at its centre, also on the
+// outline. Pixels beside the plate have the height of the front's lowest point. If only the relief is shown,
+// pixels beside it have the height of the ground. The shown part is centred in the picture. The result has no
+// pixels if the solid is empty, or if the number of pixels along a side would not be in [1, 32768].
 HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options);
 
 // Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels; heights
-// below the zero have the zero's grey level. If the range is empty, all pixels have that level.
+// below the zero height have its grey level. If all heights are equal, all pixels have that level.
 HeightMap grey_levels(const HeightsMm& heights, int bits = 16);
 
 // Returns the image of the map with 8 bits per grey level.

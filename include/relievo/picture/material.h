@@ -17,8 +17,8 @@ inline constexpr std::array<Choice<Material>, 5> material_choices{{{"plaster", M
                                                                    {"porcelain", Material::porcelain}}};
 
 // The direction to the lamp, in the axes of the plate. Light comes from the upper left, because people assume
-// that (Kleffner and Ramachandran, On the perception of shape from shading, 1992). It is 30 degrees above the
-// plate, which is low enough to distinguish the slopes of a shallow relief.
+// that light comes from there (Kleffner and Ramachandran, On the perception of shape from shading, 1992). It
+// is 30 degrees above the plate, which is low enough to distinguish the slopes of a shallow relief.
 inline const Vec3f upper_left_lamp(-1, 1, .8F);
 
 }  // namespace relievo

@@ -16,9 +16,9 @@ struct PreviewOptions {
   int longer_side_px = 1200;      // longer side of each of the two pictures
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate
   Material material = Material::plaster;
-  // The body before bending. If given, the front picture shows it instead of the bent body, because bending
-  // to the inside hides the relief, and any bending hides a porcelain relief, which is lit from behind. The
-  // solid must outlive the call.
+  // The body before bending. If given, the front picture shows this body instead of the bent body. Bending to
+  // the inside would hide the relief, and any bending would hide a porcelain relief, which is lit from
+  // behind. The solid must outlive the call.
   const Solid* flat = nullptr;
   // The oblique picture cuts the body at this height in z, and shows only the part below.
   double nearest_mm = std::numeric_limits<double>::infinity();

@@ -42,7 +42,7 @@ struct RenderOptions {
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate; not zero
   bool has_shadows = true;        // whether the relief casts shadows on itself, and hollows are darker
-  bool is_fine = false;           // nine samples per pixel and finer shadows, in about five times the time
+  bool is_fine = false;           // if true: nine samples per pixel and finer shadows, five times slower
 
   // Returns whether width and height are in [1, 8192]. If not, pictures are empty.
   bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }
@@ -51,7 +51,8 @@ struct RenderOptions {
 };
 
 // Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane. The first row is the lowest. Cells are NaN where the scan shows nothing and at edges.
+// view plane. The first row is the lowest. Cells are NaN where the scan has no points and along silhouettes
+// and depth jumps.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;
@@ -65,16 +66,16 @@ struct Shown {
   std::span<const Vec3f> normals;                  // unit length
   float stretch = 1;                               // factor of heights and normals in the picture, > 0
   std::optional<std::array<float, 2>> range = {};  // lowest and highest height; determined if not given
-  // The detail is multiplied by a gain per point, and added to the slopes between the points, see
-  // FrameMaker::write_gains().
+  // The detail is multiplied by the gains, one per point, and added to the slopes interpolated between the
+  // points, see FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
   // If not empty, colours the relief from blue to orange: a share in [0, 1] per point.
   std::span<const float> tint = {};
 };
 
-// The size of a piece, and the offset of the middle of its relief from its own middle. A piece that is bent
-// around a wrap has no offset.
+// The size of a piece, and the position of its relief's middle relative to the piece's middle. For a piece
+// that is bent around a wrap, the position is that in the flat plate.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();
@@ -102,16 +103,17 @@ class FrameRenderer {
   // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
   // or as a die. Uses only mm_per_unit of the lengths in `options`. There must be no ornaments, and a plate
   // without ground must have a plane base and no wrap. The plate is kept for the next picture. If only the
-  // height of the rim has changed since the plate was made, pictures that are not fine show its old bevel.
-  // Errors: those of make_plate() and wrap_plate().
+  // height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
+  // bevel. Errors: those of make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 
   // Returns the uncompressed model: its depths above its lowest visible point.
   Shown original() const;
 
-  // Returns `samples` heights in mm above the ground, evenly spaced along the line between two positions in
-  // the plate's plane, in mm from the middle of the relief. Outside the relief the height is 0.
+  // Returns `samples` heights in mm above the ground. They are evenly spaced along the line between two
+  // positions in the plate's plane. The positions are in mm from the middle of the relief. Outside the relief
+  // the height is 0.
   std::vector<float> profile(const Shown& shown, const RenderOptions& options, const Vec2& from,
                              const Vec2& to, std::size_t samples);
 

@@ -41,7 +41,7 @@ struct BaseOptions {
   // For a fold: angle between each half and the plate. The default without height_mm is 15 degrees.
   std::optional<double> angle_deg;
   // Diameter of a cylinder or a dome. Without height_mm, the default for a cylinder is twice the plate's
-  // extent across its axis, and a dome becomes 0.15 of the plate's radius high.
+  // extent across its axis, and the default for a dome makes the dome 0.15 of the plate's radius high.
   std::optional<double> diameter_mm;
   // For a wave: distance from crest to crest. The default is half the plate's extent across the waves, but at
   // least four times height_mm.
@@ -65,11 +65,11 @@ class Base {
   // A plane at height 0.
   Base() = default;
 
-  // Returns the base under a plate with that outline; its bounding box determines middle and size. An image
-  // is scaled until it covers the plate; the rest is cut off. Errors: kind option for a number out of range,
-  // for numbers that contradict each other, for a surface (except an image) that is steeper than 80 degrees
-  // somewhere on the plate, and for an image that is missing, is smaller than 2 x 2, or has values that are
-  // not finite.
+  // Returns the base under a plate with that outline. The outline's bounding box determines the base's middle
+  // and size. An image is scaled until it covers the plate; the rest of the image is cut off. Errors: kind
+  // option for a number out of range, for numbers that contradict each other; for a surface other than an
+  // image that is steeper than 80 degrees somewhere on the plate; for an image that is missing, is smaller
+  // than 2 x 2, or has values that are not finite.
   static Result<Base> over(const BaseOptions& options, std::span<const Vec2> outline);
 
   bool is_plane() const { return kind_ == BaseKind::plane; }
@@ -78,7 +78,7 @@ class Base {
   double height(const Vec2& place) const;
 
   // Returns an approximate length in mm within which the base is only convex or only concave; infinity if the
-  // whole base is.
+  // whole base is only convex or only concave.
   double min_feature_mm() const { return min_feature_mm_; }
 
   // Returns the position, in (0, 1), where the segment from a to b crosses the ridge of a fold; nothing if it

@@ -35,8 +35,8 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // logarithm of the brightness. The brightness is that of a white model under a lamp from the upper left,
 // multiplied by the luminance of the model's colours, if any. The brightest 2 % of the points (highlights)
 // count as equally bright. The ground, the outline, and the darkest points have the largest height: all
-// points below a tenth of the highlights' brightness or, if these are more than a tenth of the points, the
-// darkest tenth.
+// points below a tenth of the highlights' brightness. If more than a tenth of the points are that dark, only
+// the darkest tenth have this height.
 //
 // A flat surface with colours is a picture. Its heights fall linearly from black to white, without highlights
 // and shading. The values of a picture are already close to the logarithm of its brightness, because displays

@@ -33,7 +33,8 @@ struct HeightFieldMesh {
   std::vector<std::uint8_t> is_relief = {};
 };
 
-// A raised rim along the outline, as on coins and plaques. Each length is 0 or at least 0.001.
+// A raised rim along the outline, as on coins and plaques. Each length is 0 or has a magnitude of at least
+// 0.001 mm.
 struct RimOptions {
   double width_mm = 0;  // width from the outline to the inner ground; 0 for no rim
   // Height of the rim's flat top above the ground. If negative, the rim is a groove, as in a die, and the
@@ -66,7 +67,8 @@ struct PlateOptions {
   std::vector<Ornament> ornaments = {};  // ornaments on the ground; not for the outline `none`
   // Slope of the ornaments' walls, > 0; the default is 15 degrees off the vertical.
   double ornament_slope = 3.7;
-  // make_plate() expects a front that is mirrored or inverted already, and does the same to the ornaments.
+  // If one of these is true, make_plate() mirrors or inverts the ornaments. The front must be mirrored or
+  // inverted already.
   bool is_mirrored = false;  // whether left and right are swapped
   bool is_die = false;       // whether what is raised in the relief is sunk, and vice versa
 
@@ -85,7 +87,7 @@ struct Solid {
   std::size_t front_triangles = 0;
   std::vector<Colour> colours = {};  // colours of the points, or empty
   std::vector<Region> regions = {};  // regions of front triangles, for pictures; empty if all are relief
-  Vec3 shift = Vec3::Zero();         // added to the front's coordinates to get the solid's, for flat ground
+  Vec3 shift = Vec3::Zero();         // with flat ground: the solid's coordinates minus the front's
   double ground_mm = 0;              // height of the flat ground, or of a curved base in the middle
   double error_mm = 0;  // largest distance from the exact surface, due to bending and simplifying
   OrnamentFacts ornaments = {};
@@ -101,9 +103,9 @@ Solid in_unit(Solid solid, LengthUnit unit);
 // at the origin: x, y, z >= 0, with the bottom at z = 0 and the lowest point of the front at z =
 // thickness_mm. Its extent in z is the thickness plus the difference between the highest and the lowest point
 // of the front, including ground and rim. The front's points and triangles come first, in their order. The
-// ground adds as points only the corners of the outline and of the rim's edges; ornaments add their own
-// points. If two points would coincide in single precision, z of the second one is changed by the smallest
-// step that separates them.
+// only points that the ground adds are the corners of the outline and of the rim's edges. Ornaments add their
+// own points. If two points would coincide in single precision, z of the second one is changed by the
+// smallest step that separates them.
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the
@@ -124,17 +126,17 @@ Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& option
 // shell, and its walls point towards the axis. Its bounding box begins at the origin. If a rectangle goes all
 // the way around a cylinder or a cone, its two sides are joined. `plate` must be the result of make_plate()
 // with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief would reach
-// the axis, if a plate that goes all the way around has another outline, a rim or a slanted axis, or if there
-// is no wrap.
+// the axis, or if there is no wrap; also, for a plate that goes all the way around, if its outline is not a
+// rectangle, its axis is slanted, or it has a rim.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
 Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
-// Checks that every edge of a solid is shared by exactly two triangles with opposite directions, that no
-// triangle has two equal corners, that no two used points have the same single-precision coordinates, and
-// that the volume is positive. Returns a description of the first fault, or an empty string. It is public for
-// tests and bug reports. Takes 0.1 s for 1M triangles.
+// Checks that a solid is closed and has no faults: every edge is shared by exactly two triangles with
+// opposite directions; no triangle has two equal corners; no two used points have the same single-precision
+// coordinates; the volume is positive. Returns a description of the first fault, or an empty string. This
+// function is public for tests and bug reports. It takes 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.

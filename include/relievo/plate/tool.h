@@ -19,7 +19,7 @@ struct Tool {
   enum class Kind { ball, flat, v };
   Kind kind = Kind::ball;
   double diameter_mm = 1;  // diameter of a ball or flat end, [0.01, 1000]
-  double angle_deg = 60;   // angle between a V tool's flanks, [1, 170]; the flanks have no end
+  double angle_deg = 60;   // angle between a V tool's flanks, [1, 170]; the flanks have unlimited length
   double tip_mm = 0;       // diameter of the ball at a V tool's tip, [0, 1000]; 0 for a sharp tip
 
   bool operator==(const Tool&) const = default;
@@ -38,18 +38,18 @@ double tool_profile(const Tool& tool, double distance_mm);
 
 // Returns the lowest surface that the tool can leave without cutting below the height of any sample: the
 // morphological closing of the heights by the tool's shape. It is never below the heights. NaN marks samples
-// without material, where nothing obstructs the tool, and remains NaN. The tool's axis visits the samples,
-// and positions outside the image up to the tool's radius. The radius is limited to half the longer side of
-// the image; a V tool's flank is limited to the range of the heights. The result is exact at the samples.
-// Positions between samples are not visited. So the height at which a ball of radius R touches has an error
-// of up to step_mm^2 / (8 R) on gentle slopes. On walls the error is up to half a step times the slope. Takes
-// about 0.5 s for 4M samples and a radius of 15 samples on two cores.
+// without material, where nothing obstructs the tool, and remains NaN. The tool's axis visits all samples,
+// and positions outside the image at most the tool's radius away from it. The radius is limited to half the
+// longer side of the image; a V tool's flank is limited to the range of the heights. The result is exact at
+// the samples. Positions between samples are not visited. So the height at which a ball of radius R touches
+// has an error of up to step_mm^2 / (8 R) on gentle slopes. On walls the error is up to half a step times the
+// slope. Takes about 0.5 s for 4M samples and a radius of 15 samples on two cores.
 Image<float> close_by_tool(const Image<float>& heights_mm, double step_mm, const Tool& tool);
 
 struct ToolReach {
   double reached_share = 1;        // share of the front's area that the tool reaches within the tolerance
   double largest_residual_mm = 0;  // largest height of material that is left on the front
-  double tolerance_mm = 0;         // 0.01, or an eighth of mm_per_sample if that is more
+  double tolerance_mm = 0;         // 0.01, or an eighth of mm_per_sample if that is larger
   double mm_per_sample = 0;  // a twelfth of the tool's radius, but in [1/4096, 1/2048] of the longer side
   Image<float> heights_mm;   // heights of the front above its lowest point; NaN where there is no front
   Image<float> residual_mm;  // height of material that is left on the front; NaN where there is no front

@@ -27,9 +27,9 @@ struct Measures {
   double steep_share = 0;          // share of the silhouette's pixels steeper than 80 degrees
   double height_used = 0;          // height between the 1st and the 99th percentile, as a share of `height`
   double jump_step = 0;            // largest step at a depth jump of the model, as a share of `height`
-  double rim_step = 0;             // largest height one edge away from the silhouette, as a share of `height`
-  double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette about its moving mean
-  double jump_fray_deg = 0;        // the same scatter on both sides of depth jumps
+  double rim_step = 0;             // largest height one edge inside the silhouette, as a share of `height`
+  double silhouette_fray_deg = 0;  // scatter of the triangles' tilt along the silhouette, see docs/quality.md
+  double jump_fray_deg = 0;        // the same scatter along both sides of depth jumps
   double facet_angle_deg = 0;  // 99th percentile of the angles between triangles where the model is smooth
   double longest_side = 0;     // longest triangle side, in sampling distances
   double height = 0;           // highest minus lowest height, base included, in the surface's units

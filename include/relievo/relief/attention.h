@@ -15,13 +15,14 @@ namespace relievo {
 // Models of this kind predict only poorly where people look, see docs/method.md.
 std::vector<float> attention(const Surface& surface);
 
-// A level is the attention minus its mean, in steps of 1 / attention_steps from -1, which is level 0.
+// A level encodes the attention minus its mean: level 0 is -1, and each level is 1 / attention_steps more
+// than the previous one.
 inline constexpr int attention_steps = 256, attention_levels = 2 * attention_steps + 1;
 
 // Returns the level of each value of an attention.
 std::vector<std::uint16_t> levels_of(const std::vector<float>& attention);
 
-// Returns the attention minus its mean, in [-1, 1], that a level stands for.
+// Returns the value that a level encodes: the attention minus its mean, in [-1, 1].
 inline double attention_at(int level) {
   return static_cast<double>(level) / attention_steps - 1;
 }

@@ -42,7 +42,8 @@ Relief linear_relief(const Surface& surface, double height);
 // and Langbein, Bas-relief generation using adaptive histogram equalization, 2009.
 struct EqualiseOptions {
   int picture_px = 512;  // longer side of the picture, [16, 4096]
-  // The largest neighbourhood, at most picture_px; each next one is half as wide.
+  // Width of the largest neighbourhood, at most picture_px. Each further neighbourhood is half as wide as the
+  // previous one.
   int largest_window_px = 128;
   int windows = 2;   // number of neighbourhood sizes, >= 1
   int bins = 256;    // number of bins of a histogram over all depths

@@ -12,8 +12,8 @@ namespace relievo {
 // Returns the slope (rise over run) of a wall whose angle to the vertical is `draft_deg`, in (0, 90) degrees.
 double slope_at_draft(double draft_deg);
 
-// The slopes of reliefs are reduced below this share of the limit. The remaining thousandth of the limit is
-// for the rounding of all later steps.
+// Slopes are reduced to at most this share of the limit, so that the rounding in all later steps cannot
+// exceed the limit.
 inline constexpr double kept_slope = .999;
 
 struct DraftOptions {
@@ -36,7 +36,7 @@ struct DraftOrder {
 // the limit. Boundary points stay on the base. A relief within the limit is returned unchanged, bit for bit.
 // The slopes of any other relief are reduced to a thousandth below the limit, so that it also satisfies the
 // limit in single precision. Takes about 0.5 s for 160k points. Errors: kind geometry if the base alone is
-// steeper; those of HeightSystem::build(); kind cancelled.
+// steeper than the limit; those of HeightSystem::build(); kind cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);
 

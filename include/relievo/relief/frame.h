@@ -26,9 +26,9 @@ struct FrameOptions {
 };
 
 struct FrameTimes {
-  double heights_s = 0;      // t1: weights, slopes, right-hand side and solve, summed over all solves
-  double after_solve_s = 0;  // t2: detail or height correction, and extension to all points
-  double normals_s = 0;      // t3: normals
+  double heights_s = 0;      // the paper's t1: weights, slopes, right-hand side and solve, for all solves
+  double after_solve_s = 0;  // the paper's t2: detail or height correction, and extension to all points
+  double normals_s = 0;      // the paper's t3: normals
   int solves = 0;            // number of solves: 1, or more for a given height
 };
 
@@ -36,8 +36,8 @@ struct Frame {
   FrameOptions options;           // the effective options, including the u that was found
   std::vector<float> heights;     // heights of the surface's points, in the cloud's units
   std::vector<Vec3f> normals;     // unit normals: area-weighted means over the triangles around a point
-  double height = 0;              // highest minus lowest height, the base's height 0 included
-  float lowest = 0, highest = 0;  // lowest and highest height, 0 included
+  double height = 0;              // highest minus lowest height; the base, at height 0, counts as a height
+  float lowest = 0, highest = 0;  // lowest and highest height; the base, at height 0, counts as a height
   bool is_height_met =
       true;  // false if no u gives the height of the options; the relief is then as high as possible
   FrameTimes times;

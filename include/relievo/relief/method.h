@@ -1,6 +1,6 @@
-// Declares the methods for making a relief, their names, and the numbers of points that they use. To add a
-// baseline, add an enumerator, a declaration and a table entry here, and implement it in
-// src/relief/baselines/.
+// Declares the methods for making a relief, their names, and the modes that choose the points for which
+// heights are solved. To add a baseline, add an enumerator, a declaration and a table entry here, and
+// implement it in src/relief/baselines/.
 #pragma once
 
 #include <array>

@@ -27,7 +27,7 @@ struct View;
 
 struct Relief {
   std::vector<double> heights;  // heights of the surface's points above the base, in the surface's units
-  double height = 0;            // h: highest minus lowest height with detail, the base's 0 included
+  double height = 0;            // h: highest minus lowest height, including detail and the base's height 0
   Shape shape;                  // the shape of the relief
 };
 
@@ -63,8 +63,8 @@ class ReliefModel {
   // Returns the surface and frees the memory of everything else. The model must not be used any more.
   Surface take_surface() &&;
 
-  // Returns the paper's own system; null for all other methods. With such a system, system() and subspace()
-  // are null, layers() is empty, and steps(), planes() and correction() must not be called.
+  // Returns the paper's own system; null for all other methods. If the model has the paper's system, system()
+  // and subspace() are null, layers() is empty, and steps(), planes() and correction() must not be called.
   const PaperModel* paper() const;
 
   // Returns whether the model was prepared for the method. Method::paper needs its own models; all other
@@ -104,11 +104,11 @@ class ReliefModel {
   // Returns the relief whose height, including detail, is `height`. Searches for the u of the compression
   // that gives this height. beta, gamma and the slope limit stay as requested, which is the intent of
   // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps, of at most
-  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. In
-  // models of Method::paper, beta changes, too, if Shape::is_beta_free is set, and there are no such steps;
-  // see search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no
-  // relief has that height; the message states the largest possible height in millimetres, for `unit_mm`
-  // millimetres per unit. Kind cancelled.
+  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. Models
+  // of Method::paper have no such steps, and the search changes beta, too, if Shape::is_beta_free is set; see
+  // search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no relief
+  // has that height; the message states the largest possible height in millimetres, for `unit_mm` millimetres
+  // per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

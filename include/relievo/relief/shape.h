@@ -14,9 +14,9 @@ struct Stroke;
 class ToneCurve;
 
 enum class Style {
-  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), the paper's
-  // rules are applied to our points and edges; this is for coarse reliefs of a turned model and for the
-  // reference heights of SubspaceModel. Models of Method::paper make their reliefs by ReliefModel::paper(),
+  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), it applies
+  // the paper's rules to our points and edges. Coarse reliefs of a turned model and the reference heights of
+  // SubspaceModel are made in this way. Models of Method::paper make their reliefs by ReliefModel::paper(),
   // for either style.
   paper_weights,
   layered  // normals compressed layer by layer, fine layers least; heights compressed by HeightCorrection
@@ -25,7 +25,7 @@ enum class Style {
 // Height and saturation of a relief. The paper's height coefficient is alpha. For every beta > 0, u =
 // alpha^-beta is equivalent to alpha. At beta = 0, where alpha has no effect, u still gives every height.
 struct Compression {
-  double u = 1;     // [0, infinity]; 0 gives a flat relief, infinity keeps all normals (with curvature)
+  double u = 1;  // [0, infinity]; 0: flat; infinity: normals unchanged (if beta > 0, only where k is not 0)
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points equally
   // If set, the curve replaces the exponential of equation (6): w_k = 1 - (1 - curve(|k|))^u. So u still
   // determines the height; at u = 1, w_k is the value of the curve. Beta then has no effect.

@@ -40,8 +40,8 @@ inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::str
 // The points that belong to a stroke.
 enum class StrokeArea {
   line,  // the points within the radius of a line
-  // The points inside a closed line, as the viewer saw it who drew it. Points that are deeper behind the line
-  // than half of its size are left out.
+  // The points inside a closed line, seen in the direction in which the line was drawn. Points that are
+  // behind the line by more than half of its longer side are left out.
   lasso,
   region  // the points around a single point, as far as the surface turns less than the tolerance
 };
@@ -58,16 +58,16 @@ struct Stroke {
   std::string name;
   Brush brush = Brush::soften;
   double amount = 1;  // factor of the change, see Brush: [0, 1]; strengthen and sharpen: [0, 4]
-  // Largest distance from the line, in the units of the scan, > 0. In a lasso or a region, the change has
-  // its full amount at this distance from the edge, or before.
+  // Largest distance from the line, in the units of the scan, > 0. In a lasso or a region, the change fades
+  // out towards the edge, and has its full amount at this distance from the edge and farther inside.
   double radius = 0;
   double softness = 1;         // share of the radius over which the change fades out, [0.05, 1]
   bool is_muted = false;       // a muted stroke changes nothing
-  std::vector<Vec3> points{};  // corners of the line, in the coordinates of the scan; a single one is a dab
+  std::vector<Vec3> points{};  // corners of the line, in the scan's coordinates; one point is allowed
   StrokeArea area = StrokeArea::line;
   Vec3 direction =
-      Vec3::Zero();      // of a lasso: towards the viewer who drew it, in the scan's axes; any length > 0
-  double tolerance = 6;  // of a region: most turning, in degrees per 1 % of the longer side, [0.1, 180]
+      Vec3::Zero();      // for a lasso: direction to the viewer who drew it, in the scan's axes; not zero
+  double tolerance = 6;  // for a region: largest turn in degrees per 1 % of the longer side, [0.1, 180]
 
   bool operator==(const Stroke&) const = default;
 };

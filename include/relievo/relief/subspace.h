@@ -27,9 +27,9 @@ std::vector<double> reference_heights(const Surface& surface, const HeightSystem
 
 // Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
 // the reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by the
-// reference height, both solved on the control points. The offset is the part of the compressed height that a
-// smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel B-splines extend ratio and offset
-// to all points.
+// reference height; both are solved for on the control points. The offset is the part of the compressed
+// height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel B-splines extend
+// ratio and offset to all points.
 //
 // Reliefs differ from exact reliefs by about 1 % of the height (root mean square), layered reliefs by 1 to 4
 // %. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run concurrently if each has its
@@ -92,7 +92,8 @@ class SubspaceModel {
     std::vector<PointLayers> layers;
     std::vector<Index> points;  // the sampled points
   };
-  // The ratio of a control point is z_c * own + common * overall; `common` is the same for all of them.
+  // The ratio of a control point c is z_c * own + common * overall. z_c is its height; `common` is the same
+  // for all control points.
   struct RatioTerm {
     float own = 0, overall = 0;
   };
@@ -107,7 +108,7 @@ class SubspaceModel {
   Samples samples_;
   double delta_ = 0;
 
-  std::vector<float> control_reference_;  // reference heights of the control points, z0_c
+  std::vector<float> control_reference_;  // reference heights of the control points
   std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline ratio_spline_, offset_spline_;
   std::vector<SplinePlace> places_;

@@ -54,8 +54,8 @@ struct SlopeInput {
 };
 
 // Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.
-// For the layered style it is layered_slope() with layer_weights(shape). Then the layers are also multiplied
-// by w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
+// For the layered style it is layered_slope() with layer_weights(shape); the layers are also multiplied by
+// w_b and by the factor of the saturation, and the slopes are adapted to the shape's light, if any.
 void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // Return the layer weights of a layered shape: the first function for points of mean attention, the second
@@ -64,7 +64,7 @@ LayerWeights layer_weights(const Shape& shape);
 LayerWeights layer_weights(const Shape& shape, double more_attention);
 
 // Separate the saturation from a compression c. In the layered style, the saturation or tone curve multiplies
-// layers by saturation_scale(c) times w_k of saturation_alone(c), which is 1 for saturation 0.
+// layers by saturation_scale(c) times w_k of saturation_alone(c). This product is 1 for saturation 0.
 Compression saturation_alone(const Compression& compression);
 double saturation_scale(const Compression& compression);
 

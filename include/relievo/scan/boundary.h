@@ -33,8 +33,8 @@ struct Boundary {
 // that circle. A triangle of a narrow hole is not outside. A narrow hole is a connected set of triangles with
 // radii from 3 to 5 rho that does not touch the hull. If the local spacing of all three corners exceeds 2
 // rho, the scan is sparse there, and the local spacing replaces rho. `spacing` is Spacing::local of each
-// point, for clouds of uneven density. For other clouds, `spacing` must be empty, because it would close gaps
-// beside surfaces that are seen edge-on.
+// point, for clouds of uneven density. For other clouds, `spacing` must be empty, because local spacings
+// would close gaps beside surfaces that are seen edge-on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 

@@ -33,8 +33,8 @@ struct Cloud {
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
   std::optional<double> units_per_value = {};
-  // For each point the shortest axis of its Gaussian splat, which is across the surface and may have either
-  // sign; zero where it is not known. Empty for other clouds. estimate_normals() uses the axes.
+  // For each point the shortest axis of its Gaussian splat, which is perpendicular to the surface and may
+  // have either sign; zero where it is not known. Empty for other clouds. estimate_normals() uses the axes.
   std::vector<Vec3f> axes = {};
 
   std::size_t size() const { return points.size(); }
@@ -52,8 +52,8 @@ std::vector<Index> outliers(const Cloud& cloud);
 
 // Returns the cloud with only the first point of each group of exact or near repeats; unchanged if hardly any
 // points are repeated. Points repeat each other if they are much closer to each other than to all other
-// points and their normals differ by at most 90 degrees. With this limit both sides of a thin sheet are kept.
-// Normals and colours are the means of the group.
+// points and their normals differ by at most 90 degrees. This limit keeps both sides of a thin sheet. Normals
+// and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
 // Returns the cloud without the points whose indices are in `erased`, in ascending order.

@@ -17,14 +17,14 @@ struct CurvatureOptions {
   double scale = 2;
 };
 
-// Returns the mean curvature at the points with the indices `queries`, in 1 / length, positive where the
-// surface is convex, and clamped to [-1 / rho, 1 / rho]. It is half the divergence of a linear function
-// fitted to the normals in the tangent plane. This is exact on spheres and cylinders. On scattered points it
-// is several times less noisy than the paper's equations (2) and (3), whose second derivatives depend on the
-// distribution of the points (docs/decisions/curvature.md). Neighbours on the other side of a thin wall,
-// whose normals face away, are ignored. Returns 0 where there are too few neighbours, and everywhere if the
-// cloud has no normals. Normals must have unit length. After cancellation, returns early with meaningless
-// values.
+// Returns the mean curvature at the points with the indices `queries`, in 1 / length. It is positive where
+// the surface is convex, and clamped to [-1 / rho, 1 / rho]. The mean curvature is half the divergence of a
+// linear function that is fitted to the normals in the tangent plane. This is exact on spheres and cylinders.
+// On scattered points it is several times less noisy than the paper's equations (2) and (3), whose second
+// derivatives depend on the distribution of the points (docs/decisions/curvature.md). Neighbours on the other
+// side of a thin wall, whose normals face away, are ignored. Returns 0 where there are too few neighbours,
+// and everywhere if the cloud has no normals. Normals must have unit length. After cancellation, returns
+// early with meaningless values.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 

@@ -42,7 +42,7 @@ enum class DepthValues {
   depth,      // increases away from the viewer; 0 is missing
   height,     // increases towards the viewer
   luminance,  // brightness (the luminance of colours), increases towards the viewer
-  inverse,    // proportional to one over the depth, as from estimators; 0 is infinitely far
+  inverse,    // proportional to one over the depth, as depth estimators give it; 0 is infinitely far
   automatic   // to be determined by the program that reads the file; depth_cloud() treats it as `depth`
 };
 
@@ -71,7 +71,7 @@ struct DepthOptions {
   Removal background = Removal::automatic;
   // Blur is a run of points between two surfaces that belong to neither surface. `drop` removes runs of at
   // most 12 points. `automatic` does the same in images of depth cameras. It keeps all points of height
-  // images, because their walls are part of the surface. In other images it removes runs of up to 3.
+  // images, because their walls are part of the surface. In other images it removes runs of up to 3 points.
   Removal blur = Removal::automatic;
   double points = 3e5;  // the image is reduced to about this many points
 
@@ -101,8 +101,9 @@ struct DepthCloud {
 };
 
 // Returns the image as points. x and y are in pixels; if pixels are not square, the unit is their longer
-// side. With a camera, z is -f log(depth), where f is the focal length in pixels: surfaces facing the camera
-// stay flat, and no point hides another. Without a camera, values are treated as depths along parallel rays.
+// side. With a camera, z is -f log(depth), where f is the focal length in pixels, so that surfaces facing the
+// camera stay flat and no point hides another. Without a camera, values are treated as depths along parallel
+// rays.
 //
 // Rounding steps and noise are removed: the result is the smoothest surface whose depths are within intervals
 // given by the step of the values and the measured noise. Depth jumps are not smoothed. Missing values are

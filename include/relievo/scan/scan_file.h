@@ -16,7 +16,8 @@ struct CloudFile {
   std::string format;
   std::size_t dropped_points = 0;  // number of points removed because a coordinate was NaN or infinite
   // Number of points removed because all their coordinates were 0, which devices write for points that they
-  // have not measured. The number is 0 if the file has faces, at most 16 of these points, or no others.
+  // have not measured. The number is 0 if the file has faces, has at most 16 of these points, or has no other
+  // points.
   std::size_t unmeasured_points = 0;
   // Number of points with finite coordinates and a zero, non-finite or missing normal. If they are a
   // minority, these points are removed; otherwise all points are kept, and the cloud has no normals.

@@ -32,9 +32,10 @@ struct SupportPlane {
 // Returns the plane that the visible points of a cloud stand on or in front of; nothing if there is none.
 // `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and rho
 // is its sampling distance. A plane is a table if it is level from left to right and rises away from the
-// viewer; other planes that face the viewer are backgrounds. To exclude the faces of solids, nearly all other
-// points must be in front of the plane and above its points. They must also rise far above the plane,
-// compared with their extent. The result has the same bits for any number of threads.
+// viewer; other planes that face the viewer are backgrounds. To exclude the faces of solids, nearly all
+// points off the plane must be in front of it. Most of them must stand over the hull of the points on the
+// plane, and rise far above the plane, compared with their extent. The result has the same bits for any
+// number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);
 

@@ -20,7 +20,7 @@ struct Surface {
   std::vector<Colour> colours;          // colours of the points; empty if the cloud has none
   std::vector<float> own_heights = {};  // see Cloud; empty if the cloud has none
   NormalisedCurvature curvature;
-  Triangulation triangulation;  // without `neighbours`
+  Triangulation triangulation;  // its `neighbours` are empty
   Boundary boundary;
 
   View view;
@@ -36,7 +36,7 @@ struct Surface {
   // The table or background, in the coordinates of `points`; empty if none was found. Its points are left out
   // if View::has_plane is false.
   std::optional<SupportPlane> plane = {};
-  double measured_noise = 0;  // standard deviation along the normals, in rho; 0 if it is small
+  double measured_noise = 0;  // noise along the normals (standard deviation) in rho; 0 if small
   double removed_noise = 0;   // noise that was removed: as the view asks, by default the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // whether the cloud's normals pointed inwards

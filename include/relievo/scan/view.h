@@ -96,8 +96,8 @@ struct ViewGuess {
 // axis; its hollow back has the score 0. If the outline has a broad foot on one side, that side is down. A
 // camera at the origin is assumed to look along +Z with -Y up, or along -Z with Y up.
 // - Other models are viewed along the axes. As in glTF, up is Y and the front is +Z. But if the model has a
-// wide foot along Z and none along Y, up is Z and the front is -Y; with a wide foot along -Y, up is -Y and
-// the front is -Z. The front's score is multiplied by 1.6.
+// much wider foot at its least z than at its least y, up is Z and the front is -Y. If it has a much wider
+// foot at its largest y, up is -Y and the front is -Z. The front's score is multiplied by 1.6.
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
-// Finds the visible points (stage 3) of a scattered cloud, which no other points hide, and points that
-// replace unscanned parts of the visible side.
+// Finds the visible points (stage 3) of a scattered cloud: points that no other points hide. Also finds
+// points that replace unscanned parts of the visible side.
 #pragma once
 
 #include <span>

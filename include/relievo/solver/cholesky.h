@@ -67,12 +67,13 @@ class Cholesky {
   // renumber()) and may be the same memory. With a workspace they allocate nothing, except in the first solve
   // in double precision.
 
-  // One substitution in single precision. For a well-shaped triangulation the error is about 1e-6 of the
-  // largest |x|.
+  // Solves by one substitution in single precision. For a well-shaped triangulation the error is about 1e-6
+  // of the largest |x|.
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
-  // Substitution, then refinement in double precision until the largest element of the residual is 1e-13 of
-  // the largest element of b or no longer decreases. Two substitutions are usually enough.
+  // Solves by substitution. Then refines the solution in double precision until the largest element of the
+  // residual is 1e-13 of the largest element of b or no longer decreases. Two substitutions are usually
+  // enough.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 

@@ -28,7 +28,7 @@ struct E57Scan {
   Triple position = {};  // columns of x, y and z, or of range, azimuth and elevation
   bool is_spherical = false;
   std::optional<Triple> normal, colour;  // colours scaled to [0, 255]
-  std::optional<std::size_t> invalid;    // column that is not 0 for points that the scanner could not measure
+  std::optional<std::size_t> invalid;    // column that is not 0 where the scanner could not measure a point
   // Rotation from the scanner's axes to the file's axes.
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   Vec3 origin = Vec3::Zero();  // translation after the rotation
@@ -158,8 +158,8 @@ class ScanParser {
     return elements_[element].text.empty() ? 0 : parse_number(elements_[element].text).value_or(unset);
   }
 
-  // Takes the range of colours from colorLimits or, if this element is missing, from the columns' limits.
-  // Floating-point columns without limits are in [0, 1].
+  // Scales colours to [0, 255]. The element colorLimits states their range; if it is missing, the limits of
+  // the columns state the range. Floating-point columns without limits are in [0, 1].
   void scale_colours() {
     if (!scan_.colour) return;
     const std::size_t limits = find_child(elements_, element_, "colorLimits");
@@ -236,7 +236,7 @@ bool has_coordinates(const XmlElements& elements, std::size_t scan) {
   return false;
 }
 
-// Returns the scans that have points. If no scan has coordinates, returns the error about the first one.
+// Returns the scans that have points. If no scan has coordinates, returns the error about the first scan.
 Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& pages, RawCloud& raw) {
   RELIEVO_TRY(const XmlElements elements, parse_xml(pages.xml, source));
   std::vector<std::size_t> with, without;
@@ -254,7 +254,7 @@ Result<std::vector<E57Scan>> parse_scans(const Source& source, const E57Pages& p
   return scans;
 }
 
-// Returns whether all scans have that part, such as colours. Adds a remark if only some do.
+// Returns whether all scans have the given part, such as colours. Adds a remark if only some scans have it.
 bool have_all(const std::vector<E57Scan>& scans, std::optional<E57Scan::Triple> E57Scan::*part,
               std::string_view name, RawCloud& raw) {
   const auto count = static_cast<std::size_t>(

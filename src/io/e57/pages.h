@@ -1,5 +1,6 @@
 // Reads the pages of an E57 file, which are blocks of 1,024 bytes. The last four bytes of a page are a
-// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not.
+// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not
+// count them.
 #pragma once
 
 #include <cstddef>
@@ -23,8 +24,8 @@ struct E57Pages {
   E57Pages() = default;
   E57Pages(E57Pages&&) = delete;  // not movable, because `xml` points into `bytes`
 
-  // Convert between physical and logical offsets. A physical offset inside a checksum becomes the end of all
-  // bytes.
+  // Convert between physical and logical offsets. A physical offset inside a checksum is invalid; its logical
+  // offset is the end of `bytes`.
   std::uint64_t logical(std::uint64_t physical) const;
   std::uint64_t physical(std::uint64_t logical) const;
 };
@@ -57,8 +58,8 @@ struct E57Section {
   std::uint64_t rows = 0;
 };
 
-// Collects the bytes of the wanted columns. `columns` are all columns of the section, in order. Errors name
-// the byte of the file, or the column that is too short.
+// Collects the bytes of the wanted columns (PackedColumn::is_wanted). `columns` are all columns of the
+// section, in order. Errors name the byte of the file, or the column that is too short.
 Result<void> read_packed_columns(const Source& source, const E57Pages& pages, const E57Section& section,
                                  std::span<PackedColumn> columns);
 

@@ -52,7 +52,7 @@ class GltfFile {
   struct Layout {
     std::size_t count = 0, components = 0;
     NumberType type = NumberType::float32;
-    double scale = 1;  // factor of normalised integers, else 1
+    double scale = 1;  // factor for normalised integers; 1 for other numbers
   };
 
   explicit GltfFile(const Source& source) : source_(&source) {}

@@ -1,5 +1,5 @@
-// Loads the buffers of a glTF file (the bytes after the JSON of a GLB, base64 text, or files beside it) and
-// buffer views, which may be compressed.
+// Loads the buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it. Also
+// loads buffer views, which may be compressed.
 #include <algorithm>
 #include <charconv>
 #include <span>

@@ -9,7 +9,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns a number of an array, such as the second one of "scale".
+// Returns number `i` of the array `name`; `otherwise` if it is missing.
 double number_at_index(const Json& object, const char* name, std::size_t i, double otherwise) {
   const auto found = object.find(name);
   const bool is_there =

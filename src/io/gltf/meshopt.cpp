@@ -48,7 +48,7 @@ std::optional<Bytes> decode_indices(std::string_view compressed, const MeshoptLa
   const auto body = body_of(compressed, indices_header, indices_tail);
   if (!body || layout.count > body->size()) return std::nullopt;
   MeshoptBytes from(*body);
-  std::array<std::uint32_t, 2> last{};  // two running indices; the lowest bit of a number selects one of them
+  std::array<std::uint32_t, 2> last{};  // two previous indices; the lowest bit of a number selects one
   std::vector<std::uint32_t> indices(layout.count);
   for (std::uint32_t& index : indices) {
     const std::uint32_t number = from.next_number();

@@ -80,8 +80,8 @@ std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
 // Returns the count * stride bytes of a view. Returns nothing if the compressed bytes do not have that many
-// elements, or if the extensions do not allow the layout. Needs at most 1,024 times as much memory as the
-// compressed bytes.
+// elements, or if the extensions do not allow the layout. The memory needed is at most 1,024 times the size
+// of the compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);
 

@@ -15,7 +15,7 @@ constexpr std::size_t channel_size = 4, most_stride = 256, most_in_block = 256;
 constexpr unsigned char version_0 = 0xA0, version_1 = 0xA1;
 constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 
-// The number of bits of a difference for each of a group's four possible codes.
+// The number of bits per difference, for each of the four codes that a group may have.
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
@@ -72,9 +72,9 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
          std::uint32_t{bytes[3]} << 24;
 }
 
-// Computes a channel of the next element from the same channel of the last one. In mode 0, `differences` are
-// four differences of bytes. In mode 1 they are two differences of 16-bit words. Otherwise they are bits to
-// flip, after a rotation to the left by the mode's upper four bits.
+// Computes a channel of the next element from the same channel of the previous element. In mode 0,
+// `differences` are four differences of bytes. In mode 1 they are two differences of 16-bit words. Otherwise
+// they are bits to flip, after a rotation to the left by the mode's upper four bits.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)

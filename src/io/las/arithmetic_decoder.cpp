@@ -3,15 +3,16 @@
 namespace relievo::io {
 namespace {
 
-constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits of the probabilities
+constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits per probability of a symbol, and of a bit
 
-constexpr std::uint32_t modelled_bits = 8;  // number of highest bits of a difference that have a model
+// The number of a difference's highest bits that a model decodes; the lower bits have no model.
+constexpr std::uint32_t modelled_bits = 8;
 
 }  // namespace
 
 SymbolModel::SymbolModel(std::uint32_t symbols)
     : symbols_(symbols), cycle_(symbols), starts_(symbols), counts_(symbols, 1) {
-  const std::uint32_t few = 16;  // up to this many symbols are found as fast without a table
+  const std::uint32_t few = 16;  // up to this many symbols, a search without a table is as fast
   if (symbols > few) {
     unsigned bits = 3;
     while (symbols > 1U << (bits + 2)) ++bits;
@@ -70,7 +71,7 @@ std::uint32_t ArithmeticDecoder::bit(BitModel& model) {
 }
 
 std::uint32_t ArithmeticDecoder::bits(unsigned count) {
-  const unsigned most = 19;  // limit for one step, so that the interval stays long enough
+  const unsigned most = 19;  // largest number of bits per step, so that the interval stays long enough
   if (count > most) {
     const std::uint32_t low = bits(16);
     return bits(count - 16) << 16 | low;
@@ -113,9 +114,10 @@ void RunningMedian::add(std::int32_t value) {
   std::int32_t* const v = values_;
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
-    // Removes the outermost value on the side opposite to the new value, moves the rest of that side and the
-    // median outwards by one, and inserts the new value on its own side. The next new value replaces a value
-    // at the same end.
+    // If the highest value is to be replaced, but the new value is below the median: removes the highest
+    // value, moves the median and the value above it one place up, and inserts the new value below them. If
+    // the lowest value is to be replaced, but the new value is above the median: does the same in the
+    // opposite direction. The next new value replaces a value at the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

@@ -24,7 +24,7 @@ class SymbolModel {
   std::vector<std::uint32_t> starts_;  // start of each symbol's part of the interval, in units of 2^-15
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t>
-      table_;  // by the highest bits of a number: the first symbol to try; empty if there are few symbols
+      table_;  // for the highest bits of a number: the first symbol to try; empty if there are few symbols
 };
 
 // The frequencies of 0 and 1.
@@ -88,8 +88,8 @@ inline std::uint32_t ArithmeticDecoder::symbol(SymbolModel& model) {
   return low;
 }
 
-// Decodes integers of `bits` bits, 2 to 32. The caller provides the context of a number. There is one model
-// per context for the sizes of differences.
+// Decodes integers of `bits` bits, 2 to 32. The caller provides the context of a number. Each context has its
+// own model for the sizes of differences.
 class IntegerDecoder {
  public:
   IntegerDecoder(unsigned bits, std::uint32_t contexts);
@@ -116,7 +116,7 @@ inline std::int32_t wrapping_sum(std::int32_t a, std::int32_t b) {
 }
 
 // Returns the context of a difference, given the size in bits of the previous difference along another axis.
-// There is one context per two bits, up to `most`.
+// Two consecutive sizes share a context; all sizes from `most` on share one context.
 inline std::uint32_t size_context(std::uint32_t bits, std::uint32_t most) {
   return bits < most ? bits & ~1U : most;
 }

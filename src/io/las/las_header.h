@@ -13,7 +13,7 @@ struct LasHeader {
   int minor = 0;    // minor version, 1.0 to 1.5
   std::size_t format = 0;  // point format, 0 to 10
   bool is_compressed = false;
-  std::size_t header_size = 0;  // in bytes; variable-length records follow
+  std::size_t header_size = 0;  // in bytes; variable-length records follow the header
   std::size_t variable_records = 0;
 };
 

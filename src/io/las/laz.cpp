@@ -50,7 +50,8 @@ struct LazLayout {
 constexpr std::size_t record_header = 54;  // size of the header of a variable-length record
 // This value (or 0) is stored as the number of points per chunk if that number varies.
 constexpr std::uint32_t chunks_vary = ~0U;
-// Limit of points per byte. 40 were measured for a row of points with equal steps.
+// The largest number of points per byte of a chunk; a chunk that promises more is an error. A row of points
+// with equal steps was measured to have 40 points per byte.
 constexpr std::uint64_t most_points_a_byte = 256;
 
 // Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the
@@ -252,8 +253,8 @@ bool decode_items(const LazLayout& layout, const LazChunk& chunk, const LazPoint
   return true;
 }
 
-// Splits a chunk into layers. A chunk has the first point, the number of points, the layers' sizes, and the
-// layers.
+// Splits a chunk into layers. A chunk consists of the first point, the number of points, the sizes of the
+// layers, and the layers.
 class LayerSizes {
  public:
   LayerSizes(std::string_view bytes, std::size_t first_size, std::size_t layers)

@@ -9,8 +9,8 @@
 namespace relievo::io {
 namespace {
 
-// The index of the models for a point in formats 0 to 5, by the number of returns of its pulse (row) and the
-// number of the return (column). Similar returns share models.
+// The index of a point's models in formats 0 to 5. The row is the number of returns of the point's pulse; the
+// column is the number of the point's own return. Similar returns share models.
 constexpr std::uint8_t return_contexts[8][8] = {
     {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},   {13, 1, 2, 4, 7, 11, 11, 10},
     {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},  {10, 10, 11, 12, 13, 14, 14, 13},
@@ -27,8 +27,7 @@ int high(std::uint16_t value) {
   return value >> 8;
 }
 
-// The index of the models for a point in formats 6 to 10, by the number of returns of its pulse (row) and the
-// number of the return (column). Similar returns share models.
+// The index of a point's models in formats 6 to 10, with the same rows and columns as `return_contexts`.
 constexpr std::array<std::string_view, 16> layered_return_contexts = {
     "0123453445555555", "1013333333333333", "2124444444433333", "3345444444444444",
     "4344544444444444", "5344454444444444", "3344445444444444", "4344444544444444",
@@ -56,7 +55,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // otherwise the colour is grey
+  if (!has(6)) {  // otherwise green and blue equal red
     colour[1] = colour[2] = colour[0];
     return;
   }
@@ -298,9 +297,9 @@ void LayeredPoint::decode_class(Channel& channel) {
   if (flags_) channel.flags = symbol_of(channel.flag_sets[channel.flags], *flags_, 64);
 }
 
-// Writers of version 3 store a point's colour under scanner 0, unless the scanner changes at this point. If
-// the new scanner already has colours, they store the difference from the last colour of the previous
-// scanner, and then replace that colour.
+// In version 3, a point's colour belongs to scanner 0, unless the scanner changes at this point. If the new
+// scanner already has colours, the stored difference is from the last colour of the previous scanner. The
+// decoded colour then replaces that last colour.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;

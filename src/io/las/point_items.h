@@ -30,8 +30,8 @@ class PointItem {
 
 using LazColour = std::array<std::uint16_t, 3>;
 
-// Decodes colours, which are stored as differences from the previous colour. Layers store them in the same
-// form.
+// Decodes colours, which are stored as differences from the previous colour. The layers of formats 6 to 10
+// store colours in the same form.
 class ColourModels {
  public:
   ColourModels() : bytes_(6, SymbolModel(256)) {}

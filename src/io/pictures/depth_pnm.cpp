@@ -66,7 +66,8 @@ std::optional<PnmValues> values_of(std::string_view mark, double last) {
   return PnmValues{{SampleKind::whole, last < 256 ? 8U : 16U}, channels, true, false, is_text};
 }
 
-// Sets the values from numbers of `bytes` bytes, a template argument so that the compiled code is fast.
+// Sets the values from numbers of `bytes` bytes. `bytes` is a template argument, so that the compiled code is
+// fast.
 template <unsigned bytes>
 Result<void> fill_from(const Source& source, const PnmHeader& header, const PictureChannels& wanted,
                        const PnmValues& stored, Image<float>& values) {
@@ -139,7 +140,8 @@ bool is_text_picture(std::string_view bytes) {
 
 }  // namespace
 
-// A text file whose first column has names of points may begin with the mark of a picture, too.
+// Checks more than the mark, because a text file whose first column has names of points may begin with the
+// same characters as a picture.
 bool is_pnm(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (is_text_picture(bytes)) return true;

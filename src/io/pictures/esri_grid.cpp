@@ -38,7 +38,7 @@ double* find_entry(GridHeader& header, std::string_view name) {
   return found == entries.end() ? nullptr : found->second;
 }
 
-// Returns the number in a word. Blanks separate the numbers, so a comma in one is a decimal comma.
+// Returns the number in a word. Blanks separate the numbers, so a comma in a word is a decimal comma.
 std::optional<double> number_in(std::string_view word) {
   if (!word.contains(',')) return parse_number(word);
   std::string with_point(word);

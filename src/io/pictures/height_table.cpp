@@ -23,7 +23,7 @@ constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
 using NumberRows = std::vector<std::vector<double>>;
 
 // Returns the correlation of a column with the next one; nothing if one of them is constant. Neighbouring
-// heights of a surface correlate, x and y of a cloud do not.
+// heights of a surface correlate, but the x and y of a cloud do not correlate.
 std::optional<double> correlation(const NumberRows& rows, std::size_t column) {
   double n = 0, a = 0, b = 0, aa = 0, bb = 0, ab = 0;
   for (const auto& row : rows) {
@@ -88,7 +88,7 @@ bool is_height_table(const Source& source) {
 }
 
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels&) {
-  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // never empty after is_height_table()
+  const XyzLayout layout = find_table(source).value_or(XyzLayout{});  // is_height_table() has checked it
   SourceLines lines(source, layout.data_offset, layout.first_line - 1);
   std::vector<float> values;
   std::size_t rows = 0;

@@ -12,7 +12,7 @@ struct JpegHeader {
   int orientation = 1;  // Exif tag, see turn_upright()
 };
 
-// Returns the information in the segments up to the first frame, of a JPEG or its beginning.
+// Returns the information in the segments up to the first frame. `bytes` is a JPEG or the beginning of one.
 JpegHeader find_jpeg_header(std::string_view bytes);
 
 }  // namespace relievo::io

@@ -13,9 +13,10 @@ namespace relievo::io {
 // 2^27 depths take 512 MB of memory. A picture that promises more is treated as broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// A picture that promises more than this many times the bytes of its file is treated as broken: a PNG with
-// more bytes, a TIFF or JPEG with more pixels. The factor is slightly above 1032, the best compression of
-// deflate, and far above 256, the largest number of pixels per byte of a JPEG scan.
+// A picture that promises too much for the size of its file is treated as broken: a PNG with more than this
+// many bytes per byte of the file, a TIFF or JPEG with more than this many pixels per byte. The factor is
+// slightly above 1032, the best compression of deflate, and far above 256, the largest number of pixels per
+// byte of a JPEG scan.
 inline constexpr std::size_t best_packing = 1100;
 
 // Return whether the content begins like a file of this format.
@@ -38,7 +39,7 @@ Result<DepthImage> read_depth_bmp(const Source& source, const PictureChannels& c
 Result<DepthImage> read_esri_grid(const Source& source, const PictureChannels& channels);
 Result<DepthImage> read_height_table(const Source& source, const PictureChannels& channels);
 
-// Messages about several channels end with this advice.
+// Error messages about pictures with several channels end with this advice.
 inline constexpr std::string_view way_out_of_colours =
     "; the option channel takes one of them, and depth-values luminance their brightness";
 
@@ -55,7 +56,7 @@ struct StoredPixels {
 // Returns an error if there are too many pixels, or more than the file contains.
 Result<void> check_room(const Source& source, const StoredPixels& stored);
 
-// Red, green and blue of a pixel; in a grey picture only the first counts.
+// Red, green and blue of a pixel; in a grey picture only the first value is used.
 using PixelColour = std::array<float, 3>;
 
 // Returns the value of a pixel with `channels` channels. Returns nothing if the channels differ, as in a
@@ -92,8 +93,8 @@ Result<void> fill_values(const Source& source, const PictureChannels& wanted, st
 // Returns the step between possible values: 1 if all are integers, else 0.
 double step_of(const Image<float>& values);
 
-// Turns a picture according to the tag Orientation of TIFF and Exif, 1 to 8, so that its first row is at the
-// top and its first column on the left. Other values change nothing.
+// Turns a picture so that its first row is at the top and its first column is on the left. `orientation` is
+// the tag Orientation of TIFF and Exif, 1 to 8. Other values change nothing.
 void turn_upright(DepthImage& image, int orientation);
 
 struct PictureFormat {

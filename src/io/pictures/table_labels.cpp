@@ -39,7 +39,8 @@ bool is_row(std::string_view line, const XyzLayout& layout) {
   return is_whole && (has_number || are_same);
 }
 
-// Numbers with equal steps, in a row or column of the table; `first` is the number after the corner or in it.
+// Numbers with equal steps in the first row or the first column of the table. `first` is the first number, in
+// the table's corner or, if that is empty, next to it.
 struct Progression {
   double first = 0, step = 0;
 
@@ -50,7 +51,7 @@ struct Progression {
 // files round them. Returns nothing if they are no progression.
 template <typename At>
 std::optional<Progression> progression(std::size_t begin, std::size_t size, const At& at) {
-  constexpr double rounding = .05;  // as a share of a step
+  constexpr double rounding = .05;  // largest deviation, as a share of a step
   if (begin + 4 > size) return std::nullopt;
   const double first = double{at(begin)}, last = double{at(size - 1)};
   const double step = (last - first) / static_cast<double>(size - 1 - begin);
@@ -107,8 +108,8 @@ void drop_labels(DepthImage& table) {
   const std::size_t begin = has_corner ? 0 : 1;
   const auto above = progression(begin, columns, in_row(0)), left = progression(begin, rows, in_column(0));
   const bool are_places = !has_corner && above && left;
-  // A row of heights may be 0, 1, 2 ..., too. Then the next row is usually a progression, too, and the first
-  // row stays. The same holds for columns.
+  // The first row may have heights 0, 1, 2 ... instead of column numbers. Then the second row is usually a
+  // progression, too, and the first row is kept. The same holds for the first column.
   const bool is_above = are_places || (above && above->counts() && !progression(begin, columns, in_row(1)));
   const bool is_left = are_places || (left && left->counts() && !progression(begin, rows, in_column(1)));
   if (are_places && !(above->counts() && left->counts()))

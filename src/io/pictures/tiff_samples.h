@@ -15,9 +15,10 @@ struct SampleRow {
   std::size_t first = 0, step = 1;
 };
 
-// Returns the format for the tags SampleFormat and BitsPerSample, if it is supported: unsigned integers of 1
-// to 32 and of 64 bits, signed integers of 8, 16, 32 and 64 bits, and floating-point numbers of 16, 32 and 64
-// bits, which messages call fractions. Undefined samples count as unsigned integers.
+// Returns the format for the tags SampleFormat and BitsPerSample; nothing if it is not supported. Supported
+// are unsigned integers of 1 to 32 and of 64 bits, signed integers of 8, 16, 32 and 64 bits, and
+// floating-point numbers of 16, 32 and 64 bits. Messages call floating-point numbers fractions. Undefined
+// samples count as unsigned integers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits);
 
 // Returns a description of the samples for messages: "4-bit whole numbers".

@@ -28,7 +28,7 @@ void append_number(std::string& to, T value) {
   to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
 }
 
-// Returns the text of n elements. Blocks of elements are converted concurrently.
+// Returns the texts of n elements, joined in order. Blocks of elements are converted concurrently.
 template <typename Append>
 std::string in_blocks(std::size_t n, Append&& append_element) {
   std::vector<std::string> parts((n + grain - 1) / grain);

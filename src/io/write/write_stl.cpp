@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t header_size = 80, triangle_size = 50;
 
 void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
-  // The normal is computed from the rounded corners, because some readers compute it from them and compare.
+  // The normal is computed from the rounded corners, because some readers compute the normal from these
+  // corners and compare it with the file's.
   const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
   to = detail::put_vector(to, Vec3f(normal.stableNormalized().cast<float>()));
   for (const Vec3f& corner : {a, b, c}) to = detail::put_vector(to, corner);
