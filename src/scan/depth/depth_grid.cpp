@@ -53,7 +53,8 @@ Noise measure_noise(const DepthGrid& grid) {
     noise.limit[bin] = (last - 1)->height;
     std::vector<float> sizes;
     for (auto it = first; it != last; ++it) sizes.push_back(it->twist);
-    // 1.4826 turns the median into a standard deviation, which for the sum of four heights is twice that of one.
+    // The factor 1.4826 turns the median into a standard deviation. A twist is the sum of four heights, so its
+    // deviation is twice that of one height.
     noise.sigma[bin] = 1.4826F * median(sizes) / 2;
   }
   return noise;

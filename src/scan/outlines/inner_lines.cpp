@@ -36,7 +36,7 @@ struct Change {
   double step = 0;
 };
 
-// The limits that the change of a surface must satisfy at the start of a line and where a line goes on.
+// The limits that the change of a surface must satisfy at the start of a line, or farther on along it.
 struct Limits {
   double left_over, angle_deg, step;
 
@@ -151,8 +151,8 @@ class ChangeFinder {
     double scatter() const { return around_mean + of_depths(); }
   };
 
-  // Weighted sums of 1, x and y and their products, and of 1, x and y times the normals. Each entry sums every fourth
-  // sample.
+  // Weighted sums over the samples. The names list the factors that are summed: coordinates x and y, and components of
+  // the normals. Each of the four entries sums every fourth sample.
   struct FourSums {
     Double4 w = {}, x = {}, y = {}, xx = {}, xy = {}, yy = {};
     Double4 n_x = {}, n_y = {}, n_z = {}, x_n_x = {}, x_n_y = {}, x_n_z = {}, y_n_x = {}, y_n_y = {},
@@ -185,7 +185,8 @@ class ChangeFinder {
     of_right.put_into(right);
   }
 
-  // Weighted sums of the depths of one part, in rho, and of their squares. Each entry sums every fourth sample.
+  // Weighted sums of the depths of one part, in rho, and of their squares. Each of the four entries sums every fourth
+  // sample.
   struct FourDepths {
     Double4 sum = {}, squares = {};
 

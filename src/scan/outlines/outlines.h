@@ -41,8 +41,8 @@ class ExactOutlines {
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest position on an exact outline with about this direction. A silhouette in the samples
-  // may be an exact jump, if too little of the surface behind the jump is visible.
+  // Returns the nearest position on an exact outline of this kind with about this direction. If no exact silhouette is
+  // near, a jump replaces it: where little of the surface behind a jump is visible, samples show a silhouette.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;
@@ -58,8 +58,8 @@ struct OutlineCurve {
   bool is_crease = false;  // a jump without a step: the surface only bends there
 };
 
-// Returns the options for curves of jumps: smoothness and distance between points. Creases get points as far apart as
-// those of scans, because only steps need closer ones.
+// Returns the options for curves of jumps: smoothness and distance between points. The points of creases are about as
+// far apart as those of scans, because only steps need closer points.
 FairCurveOptions jump_curve_options(double rho, bool is_crease = false);
 
 // The distance between the points of a crease, in rho.
