@@ -24,8 +24,8 @@ class DelaunayBuilder {
   // point has the same position.
   bool insert(Index p);
 
-  // Inserts a point that was added to `points`; its name is its index. The search for its triangle begins at
-  // `triangle`, unless that is outside.
+  // Inserts a point that was added to `points` after construction. Its index in the result is p. The search for its
+  // triangle begins at `triangle`, unless that is outside.
   bool insert_added(Index p, Index triangle);
 
   Triangulation result() const;

@@ -77,8 +77,7 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  // The least area of a triangle whose plane is computed, in square pixels. For smaller slivers the height of the
-  // highest corner is used.
+  // In square pixels. If twice a triangle's area is smaller, the height of its highest corner replaces its plane.
   const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
@@ -100,8 +99,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether the triangle fits between two neighbouring rows or columns of pixel centres, so that it covers
-// none. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
+// Returns whether the triangle lies between two neighbouring rows or columns of pixel centres, so that it covers no
+// centre. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
