@@ -11,8 +11,8 @@
 
 namespace relievo::solver {
 
-// Strengths of the forces on the field b. A tie pulls b towards zero, and up to `least_at_ties` if b is lower.
-// `order` has the strengths of the forces between pairs of nodes.
+// Strengths of the forces on the field b. A tie pulls b towards zero. Where b is below `least_at_ties`, the tie also
+// pulls b up to this value. `order` has the strengths of the forces between pairs of nodes.
 struct Springs {
   float tie_stiffness = 1;  // factor of the ties, >= 0
   // The least value of b at ties, below which a second force pulls b upwards.
