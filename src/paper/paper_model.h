@@ -51,7 +51,7 @@ class PaperModel {
 
   struct ControlPoint {
     Vec3f normal;
-    float k = 0, distance = 0;  // `distance` is that to the boundary
+    float k = 0, distance = 0;  // `distance`: from the point to the boundary
   };
 
   paper::NormalEquations system_;

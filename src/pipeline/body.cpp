@@ -16,17 +16,17 @@
 namespace relievo {
 namespace {
 
-// The parts of the tolerance, as shares of it, that curved bases and flips of thin triangles' edges may use.
+// Shares of the tolerance that are reserved for the errors of curved bases, and for flips of edges of thin triangles.
 constexpr double bending_share = .25, turning_share = .01;
 // The tolerance if only the number of triangles is limited; it is about the precision of files.
 constexpr double least_error_mm = 1e-4;
 // The width of the bevel as a share of the rim's height: 17 degrees off the vertical, so that dies come off.
 constexpr double rim_bevel = .3;
 
-// The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the 0.999 of
-// limit_draft(), so that simplification has some freedom. It is below 1 because of rounding.
+// The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the share of
+// limit_draft(), 0.999, so that simplification has some freedom. It is below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double ornament_share = .997;  // front_share for walls of ornaments, whose corners are rounded
+constexpr double ornament_share = .997;  // the same for walls of ornaments, whose corners are rounded
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
 constexpr double rounded_up = 1.002;     // curved rims are polygons, so bevels are steeper by up to this
 

@@ -24,17 +24,17 @@ Vec2 plate_size_of(const ReliefOptions& options);
 // simplification, `options.triangles` is the limit for the triangles of the front, not for those of the solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns the limits for simplifying the front. A curved base takes a part of the tolerance, which is
-// subtracted here. The options must ask for simplification.
+// Returns the limits for simplifying the front. The shares of the tolerance that later steps need are subtracted, such
+// as that of a curved base. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether make_plate() simplifies the solid, because simplified_front() cannot. This is so for curved ground,
-// whose triangles are not triangles of the front, and for the finish `reachable`. It is never so for the outline
-// `none`, or if the options do not ask for simplification.
+// Returns whether make_plate() simplifies the solid because simplified_front() cannot. It cannot simplify curved
+// ground, whose triangles are not triangles of the front, nor plates with the finish `reachable`. Returns false for the
+// outline `none`, and if the options do not ask for simplification.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
-// Returns the options with their height in mm; it is converted if it is given as a share of the diagonal. The options
-// must have a width.
+// Returns the options with the height in mm. A height that is given as a share of the diagonal is converted, for which
+// the options must have a width.
 ReliefOptions with_height(const Surface& surface, ReliefOptions options);
 
 // A solid, and the same solid before it was bent around a wrap.

@@ -40,8 +40,8 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   return is_smooth;
 }
 
-// Returns the distance between samples. The default is about a 700th of the width, because the eye cannot resolve
-// less when it sees the whole plate at arm's length. It is smaller if the surface's spacing is.
+// Returns the distance between samples, in mm. The default is about a 700th of the width, because the eye cannot
+// resolve less when it sees the whole plate at arm's length. If the surface's spacing is smaller, it is the default.
 Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700, most_samples = 10'000;
   const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;
@@ -105,8 +105,8 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The largest number of simplifications. For a plane base the first estimate of the front's number of triangles is
-// already right.
+// How often a front is simplified at most to reach a number of triangles of the solid. For a plane base the first
+// estimate of the number for the front is already right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
 
@@ -117,7 +117,7 @@ Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress
   return FormedBody{std::move(formed), std::move(body)};
 }
 
-// Returns the options with this limit for the front's triangles.
+// Returns the options with `front_triangles` as the limit for the number of the front's triangles.
 ReliefOptions with_front_limit(ReliefOptions options, double front_triangles) {
   options.triangles = std::max(1., std::floor(front_triangles));
   return options;
@@ -128,7 +128,7 @@ double count(const FormedBody& made) {
 }
 
 // Returns the body whose front has as many triangles as the limit for the solid allows. `full` is the front with all
-// samples, `whole` the body with all triangles.
+// samples, `whole` the body that was made without that limit.
 Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole, const ReliefOptions& options,
                                Progress* progress) {
   const double most = *options.triangles, in_front = static_cast<double>(whole.body.plate().front_triangles);

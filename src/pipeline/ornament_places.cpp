@@ -19,7 +19,7 @@ Result<std::vector<Vec2>> first_outline(const Ornament& ornament, const Ornament
   return std::move(shapes[0].outlines[0]);
 }
 
-// Returns the vector from the position that the ornament would have in the middle of the plate to its position.
+// Returns the value of Ornament::at_mm that puts the ornament at its present position.
 std::optional<Vec2> shift_from_middle(const Ornament& ornament, const OrnamentFrame& frame) {
   Ornament in_middle = ornament;
   in_middle.at_mm = Vec2::Zero();

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // distance and largest width of models, in their common heights
+constexpr double gap = .08, widest = 1.5;  // gap between models, and largest width of one, per common height
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
@@ -29,8 +29,8 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Returns `count` of the cloud's points, at the multiples of the golden ratio modulo 1, scaled to the number of
-// points. Equal steps could coincide with the rows of a scanner.
+// Returns `count` of the cloud's points. Their indices are the multiples of the golden ratio modulo 1, times the number
+// of points, because equal steps could coincide with the rows of a scanner.
 Cloud some_of(const Cloud& cloud, std::size_t count) {
   constexpr double golden_ratio = .6180339887498949;
   Cloud some;

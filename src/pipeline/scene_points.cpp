@@ -177,8 +177,8 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   return mesh;
 }
 
-// Brings clouds to the common spacing. Returns the points of all clouds except coarse ones. Of these, adds triangles
-// to parts.mesh.
+// Brings clouds to the common spacing. Returns the points of all clouds except coarse ones. The visible sides of coarse
+// clouds are added to parts.mesh as triangles.
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
