@@ -60,8 +60,7 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // Returns the options of a frame. If the tone curve has the same points as the last one, the object of the last one
-  // is reused, so that equal options of frames also share the object.
+  // Returns the options of a frame. If the tone curve has the same points as the last one, the last object is reused.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side)};
     wanted.shape.boundary_width *= shown.spacing_ratio;
@@ -136,13 +135,13 @@ Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
     const auto largest = relievo::with_width(model().surface(), sized);
     if (!largest)
       return relievo::with_width(model().surface(),
-                                 options);  // its error names the requested width
+                                 options);  // returns an error that names the requested width
     state_->sizes = std::move(sizes);
     most_mm = largest->width_mm;
   }
   sized.width_mm = options.width_mm.value_or(*most_mm);
   if (*sized.width_mm > *most_mm)
-    return relievo::with_width(model().surface(), sized);  // its error says why the width is refused
+    return relievo::with_width(model().surface(), sized);  // returns an error that says what the plate leaves
   return with_height(model().surface(), std::move(sized));
 }
 

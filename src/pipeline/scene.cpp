@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr double gap = .08, widest = 1.5;  // gap between models, and largest width of one, per common height
+constexpr double gap = .08, widest = 1.5;  // in common heights: gap between models, largest width of a model
 
 Result<void> check(const Scene& scene) {
   if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");

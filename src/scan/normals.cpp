@@ -103,7 +103,7 @@ void turn_to_viewer(Cloud& viewed) {
 }
 
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
-  constexpr float seen_well = .5F;  // n_z of 60 degrees; for steeper points the estimated sign is unreliable
+  constexpr float seen_well = .5F;  // n_z at a tilt of 60 degrees; if it is steeper, the sign is unreliable
   // The points whose normals have their final signs, in the order in which they got them. This is also the
   // queue of a breadth-first search.
   std::vector<Index> settled;

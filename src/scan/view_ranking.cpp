@@ -53,8 +53,8 @@ Sides sides_around(const Side& front) {
           guess_of({right, up}), guess_of({-up, towards}), guess_of({up, -towards})};
 }
 
-// Returns the area of the bounding box of the lowest points along an axis (or along its opposite), as a share
-// of the whole box's area. Both areas are perpendicular to the axis.
+// Returns the area of the bounding box of the lowest points along an axis (along its opposite if `sign` is -1), as a
+// share of the area of the whole box. Both areas are measured perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   constexpr double foot = .03;  // share of the height; points within it belong to the foot
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];

@@ -44,7 +44,8 @@ class Multifrontal {
   std::vector<Index> failed_;         // per task: the column whose pivot failed
 };
 
-// Returns whether the task stores the entry of the columns `column` and `other` at `column`. TaskMatrix has the rule.
+// Returns whether the task stores the matrix entry of `column` and `other` in the list of `column`. TaskMatrix states
+// the rule.
 bool is_kept(const Task& task, Index column, Index other) {
   return other > column || other < task.first_column;
 }

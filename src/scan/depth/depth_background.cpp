@@ -63,8 +63,8 @@ class Parts {
   }
 
  private:
-  // Only neighbours with similar heights belong to the same part. If the allowed slope grew along a path, a blurred
-  // outline would connect the figure with its background.
+  // Adds all connected points. Only neighbours with similar heights are connected, even if a steep step continues a
+  // steep slope. Otherwise a blurred outline, which is such a slope, would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());

@@ -95,7 +95,7 @@ void allow_noise(DepthGrid& grid) {
 }
 
 // The mean of a square block of pixels, which becomes one grid point. Only pixels close to the median count,
-// so a block on an outline represents one of both sides instead of their mean.
+// so a block on an outline represents one of the two surfaces instead of their mean.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -137,7 +137,7 @@ bool GridMaker::counts(int x, int y, const GridMask& is_left_out) const {
                       static_cast<std::size_t>(c)];
 }
 
-// Returns the image with only the values that count; the others are missing.
+// Returns the image with only the values for which counts() is true; the others are missing.
 DepthImage GridMaker::counted(const GridMask& is_left_out) const {
   DepthImage image = image_;
   for (int y = 0; y < image.values.height; ++y)

@@ -37,7 +37,7 @@ struct DepthGrid {
   double noise = 0;
   // Whether the image is from a depth camera: its values have coarser steps than the file allows.
   bool is_sensor = false;
-  // Whether it is terrain: one surface, whose steepest parts are walls instead of depth jumps.
+  // Whether the image shows terrain, which is a single surface: its steepest parts are slopes, not depth jumps.
   bool is_terrain = false;
 
   // Returns whether two known neighbours belong to one surface: the slope between them is below 76 degrees,

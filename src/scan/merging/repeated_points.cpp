@@ -37,7 +37,7 @@ constexpr double gap_by_chance = .002;
 constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
 constexpr double least_sure = .05,
-                 least_near = .4;  // least shares of tested points with a sure or near gap
+                 least_near = .4;  // a cloud has repeats if this share of tested points has a sure or near gap
 // Points are merged within three times the third quartile of the distances between repeats, but at most within a
 // quarter of the distance to other points. The largest quarter of the distances is ignored, because some of these
 // gaps are due to chance and surround points of several positions.

@@ -80,9 +80,9 @@ struct PlanePoints {
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
 // Marks small connected parts of the surface (crumbs) as outside, and holes of less than 4 rho^2 as inside. Adds the
-// number of removed parts to surface.crumbs. Crumbs have less than 0.5 % of the surface's area. If the view shows
-// crumbs, only parts of less than 20 rho^2 are removed, which are too small for an outline. If the view limits the
-// number of parts, only the largest are kept. Returns whether any triangle is still inside.
+// number of removed parts to surface.crumbs. Crumbs have less than 0.5 % of the surface's area. If View::has_crumbs is
+// set, only parts of less than 20 rho^2 are removed, which are too small for an outline. If View::most_pieces is set,
+// at most so many parts are kept, the largest ones. Returns whether any triangle is still inside.
 bool drop_crumbs(Surface& surface);
 
 // Returns the silhouettes, which are closed, then the depth jumps. The surface's triangulation must have

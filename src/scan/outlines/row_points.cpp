@@ -17,7 +17,7 @@ constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
 // Least distances between points of rows, in rho. They are smaller on outlines and in the row next to an
 // outline.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
-// The least distance of a wall from another outline, in rho. Walls end before they reach one.
+// The least distance of a wall from another outline, in rho. Walls end before they reach another outline.
 constexpr double least_from_other_outline = .35;
 
 // Makes the points of all rows, from the rows nearest to the outlines outwards.
