@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr unsigned bits = 12;  // bits of a cell's position per axis; cells with many points are divided again
+constexpr unsigned bits = 12;  // bits of a cell's number per axis; cells with many points are divided again
 
 // An entry has the position along the curve in its upper 32 bits, and the index of the point in the lower 32
 // bits.

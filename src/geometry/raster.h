@@ -74,7 +74,7 @@ class Rasterizer {
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
-  std::vector<std::size_t> first_;  // per band, and one more: position of its first triangle
+  std::vector<std::size_t> first_;  // per band: position of its first triangle; then the number of all
   std::vector<Index> triangles_;    // triangles of each band, in the order of the scene
 };
 

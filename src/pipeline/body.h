@@ -58,8 +58,8 @@ struct FormedFront {
   std::size_t full_triangles = 0;      // triangles of the front with all samples
 };
 
-// Returns the heights in millimetres of the base under the points of an upright front; no heights for a
-// plane. Errors: those of plate_base().
+// Returns the heights in millimetres of the base under the points of an upright front; empty if the base is
+// a plane. Errors: those of plate_base().
 Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
 
 // Returns the surface's triangles as a front in millimetres, with the given heights of its points.

@@ -104,7 +104,7 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Returns the heights of the base under the surface's points, in the surface's units; no heights for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; empty if the base is a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();

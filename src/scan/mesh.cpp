@@ -226,7 +226,7 @@ class Sampler {
   const SeenMesh& seen_;
   double fine_pixel_;
   RasterInput scene_;
-  int columns_, rows_;  // numbers of pixels
+  int columns_, rows_;  // numbers of pixels, not of fine pixels
   Image<Index> along_rows_, along_columns_;
 };
 

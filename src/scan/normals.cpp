@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_neighbours = 64;  // of a point; arrays of this size are on the stack
+constexpr std::size_t most_neighbours = 64;  // per point; arrays of this size are on the stack
 
 using Eigenvectors = Eigen::SelfAdjointEigenSolver<Mat3>;
 

@@ -52,7 +52,7 @@ class ObstacleSolver {
   // Data of one level. Each vector except at_ties has an element per node.
   struct Fields {
     std::vector<float> lowest, highest, load, hold, b;
-    std::vector<float> heights, lack;  // for pairs: the heights without b; scratch memory
+    std::vector<float> heights, lack;  // used for pairs only: the heights without b, and scratch memory
     std::vector<float> moment;         // bending times lap b
     std::vector<float> at_ties;        // per tie: the value of b there; then a 0 per tied node, see TiedNode
 

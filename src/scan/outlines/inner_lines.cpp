@@ -31,7 +31,7 @@ struct Change {
   double left_over = 1;  // misfit of the fits of both sides, as a share of the misfit of one common fit
   // Scatter around the means of both sides, as a share of the scatter around the common mean.
   double scatter = 1;
-  double angle_deg = 0;  // between the fitted normals of both sides
+  double angle_deg = 0;  // angle between the fitted normals of both sides
   // Depth of the left side minus depth of the right side, in rho; positive if the left side is in front.
   double step = 0;
 };
@@ -382,7 +382,7 @@ class LineFinder {
   ChangeFinder finder_;
   double rho_;
   SegmentGrid grid_;         // the outlines given to the constructor
-  PointSet lines_, starts_;  // positions of new lines; positions where lines were sought
+  PointSet lines_, starts_;  // lines_: positions of new lines; starts_: positions where lines were sought
 };
 
 }  // namespace

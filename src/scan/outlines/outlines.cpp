@@ -262,7 +262,7 @@ class JumpLines {
   const Surface& surface_;
   const ExactOutlines& exact_;
   Sides sides_;
-  std::vector<Index> next_, previous_;  // per edge; no_index if there is none
+  std::vector<Index> next_, previous_;  // per edge: the next and previous edge of its line; no_index for none
 };
 
 }  // namespace
