@@ -58,8 +58,7 @@ struct Framed {
       }
   }
 
-  // Returns an upper bound of the values in rows y - away to y + away and columns x - away to x + block - 1 +
-  // away.
+  // Returns an upper bound of the values in rows y - away to y + away and columns x - away to x + away + block - 1.
   float highest_around(int x, int y, int away) const {
     float most = least;
     for (int row = (y - away) / block; row <= (y + away) / block; ++row)

@@ -13,8 +13,8 @@
 namespace relievo {
 
 // The triangles to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. Points
-// may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5,
-// 0.5).
+// may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at
+// (0.5, 0.5).
 struct RasterInput {
   static constexpr int most_pixels = 32768;  // limit of width and height, which keeps the coverage test exact
 

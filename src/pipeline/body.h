@@ -33,7 +33,7 @@ SimplifyOptions simplest_front(const ReliefOptions& options);
 // outline `none`, and if the options do not ask for simplification.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
-// Returns the options with the height in mm. A height that is given as a share of the diagonal is converted, for which
+// Returns the options with the height in mm. A height that is given as a share of the diagonal is converted. For this
 // the options must have a width.
 ReliefOptions with_height(const Surface& surface, ReliefOptions options);
 

@@ -105,8 +105,8 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// How often a front is simplified at most to reach a number of triangles of the solid. For a plane base the first
-// estimate of the number for the front is already right.
+// The largest number of times that a front is simplified until the solid has the requested number of triangles. For a
+// plane base the first estimate is already right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
 

@@ -1,4 +1,4 @@
-// Finds the side that was scanned. For the choice of these constants see docs/decisions/best-view.md.
+// Finds the side that was scanned. For the choice of the constants see docs/decisions/best-view.md.
 #include "scan/scanned_side.h"
 
 #include <Eigen/Eigenvalues>

@@ -8,9 +8,8 @@
 namespace relievo::solver {
 namespace {
 
-// Arguments of C -= A B^T, where C is a `rows` x `columns` matrix, A `rows` x `depth` and B `columns` x
-// `depth`, all stored by columns. If `is_lower`, only the lower triangle of the square at the top of C is
-// computed.
+// Arguments of C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth`, and B `columns` x `depth`. All
+// are stored by columns. If `is_lower`, only the lower triangle of the square at the top of C is computed.
 struct Product {
   double* c;
   const double* a;

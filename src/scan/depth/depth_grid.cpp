@@ -17,8 +17,8 @@ constexpr float steepest = 4;
 // noise of each is measured separately.
 constexpr std::size_t noise_bins = 8;
 
-// The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of 2 x
-// 2 blocks, which without noise is 0 on planes and nearly 0 on curved surfaces.
+// The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of the heights
+// in 2 x 2 blocks, which without noise is 0 on planes and nearly 0 on curved surfaces.
 struct Noise {
   std::array<float, noise_bins> limit;  // largest height of each bin
   std::array<float, noise_bins> sigma;

@@ -70,8 +70,7 @@ class GridMaker {
   int reduction_;
 };
 
-// A row or a column of a grid. Its points are numbered from 0 to size - 1; step i is between points i and i +
-// 1.
+// A row or a column of a grid. Its points are numbered from 0 to size - 1. Step i leads from point i to point i + 1.
 struct GridLine {
   const DepthGrid& grid;
   std::size_t first, stride;

@@ -66,8 +66,8 @@ struct LocalSurface {
   }
 };
 
-// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2). Each factor is 1 /
-// (2 variance).
+// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2).
+// Each factor is 1 / (2 variance).
 struct Tolerances {
   float normals;  // the factor for the deviation of normals
   float heights;  // the factor for the deviation of heights, which is in units of the radius

@@ -40,8 +40,8 @@ class RowMaker {
   }
 
  private:
-  // Returns a vector to the left of an outline at one of its points. It has unit length, except that at
-  // corners it is longer, so that a parallel curve through its end has distance 1.
+  // Returns a vector to the left of an outline at one of its points. It has unit length, but is longer where the
+  // outline turns, so that a parallel curve through its end has distance 1.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
