@@ -73,8 +73,8 @@ std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, 
   return camera;
 }
 
-// If the camera looks almost exactly along an axis of the file, makes `forward` this axis, because only the
-// coordinates along it are exact depths.
+// If the camera looks almost exactly along an axis of the file, makes `forward` this axis, because the file has exact
+// depths only along its axes.
 void snap_to_axis(OrganisedCamera& camera) {
   constexpr double slant = 2e-3;
   Eigen::Index axis = 0;

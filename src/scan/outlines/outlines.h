@@ -36,8 +36,8 @@ class ExactOutlines {
   }
 
  private:
-  // Adds the nodes on exact outlines nearest to the positions from places[i] to the next one. Returns whether
-  // places[i] itself has a node.
+  // For positions from places[i] to the next place, adds the nearest nodes on exact outlines. Returns whether places[i]
+  // itself has a node.
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
