@@ -17,7 +17,7 @@ namespace relievo {
 namespace {
 
 constexpr double fan_step = std::numbers::pi / 18;  // largest angle between rays from a reflex corner
-constexpr double least_opening = .02;  // no wall rises from corners with angles below 11 degrees
+constexpr double least_opening = .02;               // no wall rises from corners below 11 degrees
 constexpr int halvings = 30;
 // The least distance between points, as a share of a wall's width. A new point closer to another one is merged with it.
 constexpr double least_share = .05;

@@ -17,7 +17,7 @@ int snap(double pixels) {
 
 // Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
-  const int shifted = steps + steps_per_pixel / 2 - 1;  // may be negative; a pixel is added before the division
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // may be negative, so a pixel is added and removed
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 

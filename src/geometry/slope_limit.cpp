@@ -14,7 +14,7 @@ namespace {
 // Limits of the effort. If a field needs more, it has too many steep triangles for this method, or its fixed
 // points allow no solution.
 constexpr int most_sweeps = 4000;
-constexpr std::size_t most_visits = 10;  // average per triangle of the field, in addition to one visit per sweep
+constexpr std::size_t most_visits = 10;  // per triangle of the field on average, plus one visit per sweep
 // Triangles are made flatter than necessary by this fraction. Without it, neighbours would push each other
 // over the limit forever, by ever smaller amounts. A larger fraction pushes more neighbours over the limit.
 // So the fraction grows with the number of sweeps.

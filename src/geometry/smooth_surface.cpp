@@ -147,7 +147,7 @@ Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   // If `change` is nearly perpendicular to the edge, its component along the edge is unreliable. The result tends to
   // 0 where the square of this component is less than this share of the square of `change`.
   constexpr double least_along = .05;
-  constexpr double most_share = 1.5;  // multiples of `change` much larger than this are noise, so they are reduced
+  constexpr double most_share = 1.5;  // larger multiples of `change` are reduced, because they are noise
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
   const double change_along = change.dot(edge);
   const double divisor =

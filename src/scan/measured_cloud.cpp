@@ -130,7 +130,8 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud.has_normals();
   if (has_estimated_normals_) {
-    estimate_normals(cloud, 16, progress);  // their signs depend on the view; noise is measured when they are known
+    // The view decides the signs of these normals. Noise is measured when the signs are known.
+    estimate_normals(cloud, 16, progress);
     return check_cancelled(progress);
   }
   measured_noise_ = measure_noise(cloud, spacing_);

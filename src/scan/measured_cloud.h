@@ -27,7 +27,7 @@ class MeasuredCloud {
   struct Scan {
     Cloud cloud;
     std::unique_ptr<const KdTree<Vec3>> tree;
-    std::vector<std::uint8_t> is_clean = {};  // per point: whether its noise was removed; empty if none was removed
+    std::vector<std::uint8_t> is_clean = {};  // per point: whether its noise was removed; empty if nowhere
   };
 
   // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a

@@ -42,9 +42,10 @@ struct ComponentExtent {
 // cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than the largest one.
 void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                          std::vector<Index>& visible) {
-  constexpr double low = 4;  // a point is high if it is more than this many tolerances above the plane,
-  constexpr double flat =
-      .05;  // and more than this share of the diagonal of the component's box
+  // A point is high if its height above the plane exceeds `low` tolerances of the plane, and the share `flat` of the
+  // diagonal of its component's box.
+  constexpr double low = 4;
+  constexpr double flat = .05;
   constexpr double connected = 3;    // neighbours closer than this, in local spacings, are in one component
   constexpr double high_share = .1;  // least share of high points in a figure
   // Size of the smallest part that is kept, as a share of the largest part.

@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr float least_jump =
-    8;  // least height difference of two surfaces with blur between them; the unit is the width of a grid cell
+    8;  // least height difference of two surfaces with blur between them, in widths of a grid cell
 
 // Returns whether a run of the steps from `first` to `last` contains a surface of its own: a step that is
 // small compared with the steps before and after it.

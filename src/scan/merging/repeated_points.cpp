@@ -36,8 +36,8 @@ constexpr double gap_by_chance = .002;
 // hundredth.
 constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
-constexpr double least_sure = .05,
-                 least_near = .4;  // a cloud has repeats if this share of tested points has a sure or near gap
+// A cloud has repeats if at least this share of the tested points has a sure gap, or a near one.
+constexpr double least_sure = .05, least_near = .4;
 // Points are merged within three times the third quartile of the distances between repeats, but at most within a
 // quarter of the distance to other points. The largest quarter of the distances is ignored, because some of these
 // gaps are due to chance and surround points of several positions.

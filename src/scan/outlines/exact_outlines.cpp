@@ -18,7 +18,7 @@ constexpr double curve_spacing = .75;  // distance between points of the fair cu
 constexpr double exact_window = 1;
 // Largest distance by which a point of the curve is moved onto the exact outline.
 constexpr double most_moved = .5;
-constexpr double least_spacing = .2;  // between points of the curve after they were moved; others are left out
+constexpr double least_spacing = .2;  // between moved points of the curve; closer ones are left out
 // The least length of an edge across a gap. Samples of a surface without gaps are closer together, even
 // diagonally across their grid.
 constexpr double least_gap = 1.7;
