@@ -7,8 +7,7 @@
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm =
-    1e-4;  // shorter sides are invisible, and lines of sides around them are nearly parallel
+constexpr double shortest_mm = 1e-4;  // shorter sides are invisible
 
 // The line of points p with p.dot(normal) == offset.
 struct Line {

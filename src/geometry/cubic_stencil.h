@@ -10,7 +10,7 @@ namespace relievo {
 
 using CubicRow = Eigen::Array4f;
 
-// packed_share() converts a position within a cell, in [0, 1), to the 16 bits of a SplinePlace; the next function
+// packed_share() converts a position within a cell, in [0, 1), to the 16 bits of a SplinePlace. unpacked_share()
 // converts it back.
 inline std::uint16_t packed_share(float t) {
   return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));

@@ -24,8 +24,8 @@ class DelaunayBuilder {
   // point has the same position.
   bool insert(Index p);
 
-  // Inserts a point that was added to `points`; its name is its index. The search for its triangle begins at
-  // `triangle`, unless that is outside.
+  // Inserts a point that was added to `points` after construction. Its index in the result is p. The search for its
+  // triangle begins at `triangle`, unless that is outside.
   bool insert_added(Index p, Index triangle);
 
   Triangulation result() const;
@@ -75,8 +75,8 @@ class DelaunayBuilder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // Given slot 0 of a triangle at the newest point, returns slot 0 of the next triangle around that point.
-  // All these triangles have the newest point at slot 2.
+  // Given slot 0 (see edges_) of a triangle at the newest point, returns slot 0 of the next triangle around that
+  // point. All these triangles have the newest point at slot 2.
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;
@@ -85,7 +85,7 @@ class DelaunayBuilder {
 
   const std::vector<Vec2>& points_;
   std::vector<Index> names_;
-  // Triangle t has the half-edges 4 t, 4 t + 1 and 4 t + 2. The fourth slot is unused; it makes index
+  // Triangle t has four slots: the half-edges 4 t, 4 t + 1 and 4 t + 2, and an unused one. The fourth makes index
   // arithmetic cheap, and no triangle crosses a cache line.
   std::vector<HalfEdge> edges_;
   Index near_ = 0;  // slot 0 of a real triangle at the last inserted point

@@ -143,7 +143,7 @@ Expansion<n + m> operator-(const Expansion<n>& e, const Expansion<m>& f) {
 
 template <std::size_t n, std::size_t m>
 Expansion<2 * n * m> operator*(const Expansion<n>& e, const Expansion<m>& f) {
-  Expansion<2 * n * m> sums[2];  // the last and the next partial sum, alternately
+  Expansion<2 * n * m> sums[2];  // the last partial sum and the next one; they take turns
   for (std::size_t i = 0; i < f.size(); ++i)
     detail::add(sums[i % 2], detail::scale(e, f[i]), sums[(i + 1) % 2]);
   return sums[f.size() % 2];

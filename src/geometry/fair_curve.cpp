@@ -87,7 +87,7 @@ Vec2 nearest_place(const Course& course, double at) {
   return place;
 }
 
-// Returns the value at length `at` of the quadratic that best fits the samples near it. If there are none,
+// Fits a quadratic to the samples near length `at`. Returns its position at this length. If there are no samples near,
 // for example between two close corners, returns the position of the nearest sample.
 Vec2 fitted(const Course& course, double at, const CurveSection& section, double window) {
   constexpr std::size_t enough = 5;

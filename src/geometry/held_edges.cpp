@@ -44,8 +44,8 @@ class EdgeHolder {
     return static_cast<std::size_t>(std::ranges::find(corners, point) - corners.begin());
   }
 
-  // Calls visit(side) for the sides opposite to `point` in the triangles around it, until visit() returns
-  // true. Returns that side.
+  // Calls visit(side) for the sides opposite to `point` in the triangles around it, until visit() returns true.
+  // Returns the side for which it does; the side's triangle is no_index if there is none.
   template <typename Visit>
   EdgeOfTriangle around(Index point, Visit&& visit) const {
     for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-constexpr unsigned bits = 12;  // bits of a cell's position per axis; cells with many points are divided again
+constexpr unsigned bits = 12;  // bits of a cell's number per axis; cells with many points are divided again
 
 // An entry has the position along the curve in its upper 32 bits, and the index of the point in the lower 32
 // bits.
@@ -62,7 +62,7 @@ bool sort_along_curve(std::span<const Vec2> points, Entries entries) {
   return true;
 }
 
-// Returns the upper 16 bits of a coordinate in [0, 1], with a zero bit between neighbours.
+// Returns the upper 16 bits of a coordinate in [0, 1], each followed by a zero bit.
 std::uint64_t spread(float coordinate) {
   auto x = static_cast<std::uint64_t>(std::clamp(coordinate, 0.0F, 1.0F) * 65535);
   x = (x | x << 8) & 0x00FF00FF;
@@ -87,8 +87,8 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
-  // A cell with more points than this gets a curve of its own, repeatedly. A stack replaces recursion, which
-  // nested clusters could make deep.
+  // Points in a cell with more points than this are sorted along a finer curve in the cell, repeatedly. A stack
+  // replaces recursion, which nested clusters could make deep.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;
   if (!entries.empty()) todo.emplace_back(entries);

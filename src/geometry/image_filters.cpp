@@ -58,8 +58,7 @@ struct Framed {
       }
   }
 
-  // Returns an upper bound of the values in rows y - away to y + away and columns x - away to x + block - 1 +
-  // away.
+  // Returns an upper bound of the values in rows y - away to y + away and columns x - away to x + away + block - 1.
   float highest_around(int x, int y, int away) const {
     float most = least;
     for (int row = (y - away) / block; row <= (y + away) / block; ++row)
@@ -101,8 +100,8 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// Returns the largest horizontal distance from the block at which a value of the row, minus the height of the shape
-// there, can exceed `lowest`; -1 if no value can.
+// `lowest` is the smallest maximum found so far in the block. Returns the largest horizontal distance from the block
+// at which a value of the row, minus the height of the shape there, can exceed `lowest`; -1 if no value can.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -113,8 +112,7 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// Returns the largest vertical distance from the block, in rows, at which a value, minus the height of the shape
-// there, can exceed `lowest`; -1 if no value can.
+// Does the same as reaching() for the vertical distance from the block, in rows.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;

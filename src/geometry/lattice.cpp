@@ -30,8 +30,8 @@ Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, d
   set_first_nodes();
   count(counted);
   std::vector<Corners> sums(nodes());
-  // With all shares and all values equal to 1, gather() returns the sums of the squared weights. The shares become
-  // the inverses of these sums.
+  // If all shares and all values are 1, gather() writes the sum of the squared weights at each node. A share is the
+  // inverse of this sum.
   share_.assign(nodes(), 1);
   gather(std::span<const float>(std::vector<float>(points.size(), 1)), sums, share_);
   for (float& s : share_) s = s > 0 ? 1 / s : 0;
@@ -67,7 +67,7 @@ void Lattice::count(std::span<const Index> counted) {
   std::vector<Index> next(begin_.begin(), begin_.end() - 1);
   for (const Index i : counted) {
     const std::size_t c = cell_of(places_[i]);
-    // Keeps `kept` of the cell's points, evenly distributed in their order.
+    // Keeps `kept` of the cell's points, distributed evenly over the order of these points.
     const Index n = seen[c]++, kept = std::min(all[c], most_counted);
     if (n * kept / all[c] != (n + 1) * kept / all[c]) counted_[next[c]++] = {i, places_[i]};
   }

@@ -40,9 +40,9 @@ class Lattice {
   // Values at 5 x 5 positions of a cell, including its edges.
   using Tile = std::array<float, 25>;
 
-  // Evaluates the cubic B-spline whose coefficients are the nodes, at the positions of each tile; there is
-  // one tile per node. Unlike bilinear values, the spline has no creases between cells. Tiles of cells
-  // without points are not written.
+  // Evaluates a cubic B-spline with the coefficients `nodes` at the positions of each tile; there is one tile per
+  // node. Unlike bilinear values, the spline has no creases between cells. Tiles of cells without points are not
+  // written.
   void refine(std::span<const float> nodes, std::span<Tile> tiles) const;
 
   // Returns the value at any point, counted or not, by bilinear interpolation between the nearest four
@@ -72,9 +72,9 @@ class Lattice {
     marks[n] = marks[n + 1] = marks[n + width_] = marks[n + width_ + 1] = 1;
   }
 
-  // Writes a mean per node to `means`: the mean of the values of the counted points around the node, weighted
-  // by the squares of the node's bilinear weights at these points; 0 if there are no such points. `sums` is
-  // scratch memory. `means` and `sums` have an element per node.
+  // Writes to `means`, per node, the weighted mean of the values at the counted points around the node; 0 if there are
+  // none. The weight of a point is the square of the node's bilinear weight at the point. `sums` is scratch memory.
+  // `means` and `sums` have an element per node.
   template <typename Real>
   void gather(std::span<const Real> values, std::span<Corners> sums, std::span<float> means) const;
 

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-constexpr double grain = 1e-6;            // corners are multiples of it
+constexpr double grain = 1e-6;            // coordinates of corners are rounded to multiples of this
 constexpr double touching = 1.5 * grain;  // a corner this close to a side lies on it
 // Distance from a side's midpoint at which the winding numbers on both sides are computed.
 constexpr double beside = 4 * grain;

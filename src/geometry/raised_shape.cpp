@@ -17,9 +17,9 @@ namespace relievo {
 namespace {
 
 constexpr double fan_step = std::numbers::pi / 18;  // largest angle between rays from a reflex corner
-constexpr double least_opening = .02;  // corners below 11 degrees have no points above their foot
+constexpr double least_opening = .02;               // no wall rises from corners below 11 degrees
 constexpr int halvings = 30;
-// The least distance of points, as a share of a wall's width; a new point closer to another one is merged with it.
+// The least distance between points, as a share of a wall's width. A new point closer to another one is merged with it.
 constexpr double least_share = .05;
 constexpr double rounding_mm = 2e-6;  // union_boundary() rounds corners by up to this
 
@@ -187,8 +187,8 @@ class ShapePointMaker {
     return next;
   }
 
-  // Adds the points of all levels, the lowest first. A ray has a point on a level only if no other part of the
-  // outline is nearer to this point.
+  // Adds the points of all levels, beginning with the level next to the outline. A ray has a point on a level only if
+  // no other part of the outline is nearer to this point.
   void add_levels(std::size_t loop) {
     const std::vector<Ray>& rays = loops_[loop];
     tops_[loop].resize(rays.size());
@@ -249,7 +249,8 @@ class ShapePointMaker {
 
   using Cell = std::pair<std::int64_t, std::int64_t>;
 
-  // A cell is wider than the part of an edge that keep_clear() tests at once, plus the least distance.
+  // Returns the cell of a place. keep_clear() tests a part of an edge at once; a cell is wider than this part plus the
+  // least distance between points.
   Cell cell_of(const Vec2& place) const {
     const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / (8 * least_))); };
     return {at(place.x()), at(place.y())};
@@ -290,7 +291,7 @@ class ShapePointMaker {
     return distance ? add(ray.foot + *distance * ray.direction, height_at(*distance)) : no_index;
   }
 
-  // Finds the smallest distance between two sides that run in opposite directions, up to 2 mm.
+  // Finds the smallest distance between two sides with nearly opposite directions. Distances above 2 mm are ignored.
   void measure_strokes() {
     made_.thinnest_mm = std::numeric_limits<double>::infinity();
     constexpr double opposite = -.95, most_mm = 2;

@@ -17,7 +17,8 @@ struct WallLevel {
 };
 
 // Outlines, and the cross-section of the area that they cover. Between levels the height is linear; beyond
-// the last level it is constant. Negative heights sink the area. The first level is 0, 0; distances increase.
+// the last level it is constant. Negative heights sink the area. The first level has distance 0 and height 0; distances
+// increase.
 struct RaisedShape {
   std::string name;  // name of the shape in errors
   Outlines outlines;

@@ -9,15 +9,15 @@ namespace {
 
 constexpr int steps_per_pixel = 256;
 
-// Rounds a coordinate to steps of 1 / steps_per_pixel. The coordinate must be at least -1 pixel: truncation is faster
-// than rounding, but rounds only positive numbers correctly, so the coordinate is shifted by 1 pixel.
+// Rounds a coordinate to steps of 1 / steps_per_pixel. Truncation is faster than rounding, but rounds only positive
+// numbers correctly. So the coordinate is shifted by 1 pixel; if it is below -1 pixel, the error is up to 1.5 steps.
 int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
 // Returns the first pixel whose centre is at or after `steps`.
 int first_centre(int steps) {
-  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel; one is added before dividing
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // may be negative, so a pixel is added and removed
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
@@ -69,7 +69,7 @@ Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
 // The plane of a triangle as a function of the pixel. Heights are limited to the range of the corners, so
 // that slivers cause no spikes.
 struct DepthPlane {
-  double value = 0, per_column = 0, per_row = 0;  // `value` is that at the image's corner
+  double value = 0, per_column = 0, per_row = 0;  // `value` is the height at the image's corner
   double lowest = 0, highest = 0;
 };
 
@@ -77,8 +77,7 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  // The least area of a triangle whose plane is computed, in square pixels. For smaller slivers the height of the
-  // highest corner is used.
+  // In square pixels. If twice a triangle's area is smaller, the height of its highest corner replaces its plane.
   const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
@@ -100,8 +99,8 @@ Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene),
   sort_into_bands();
 }
 
-// Returns whether the triangle fits between two neighbouring rows or columns of pixel centres, so that it covers
-// none. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
+// Returns whether the triangle lies between two neighbouring rows or columns of pixel centres, so that it covers no
+// centre. Most triangles of a fine scan do, and this test reads few bytes of memory for each.
 bool Rasterizer::slips_through(const Triangle& triangle) const {
   const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
   const bool is_in_column = a.column == b.column && b.column == c.column;
@@ -122,7 +121,7 @@ Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   return {top, bottom};
 }
 
-// Returns the triangles of [begin, end) that face the viewer and may cover a pixel centre, with their bands.
+// Returns those triangles of [begin, end) that face the viewer and may cover a pixel centre, each with its bands.
 std::vector<Rasterizer::InBands> Rasterizer::covering(std::size_t begin, std::size_t end) const {
   std::vector<InBands> found;
   for (std::size_t t = begin; t < end; ++t) {

@@ -13,8 +13,8 @@
 namespace relievo {
 
 // The triangles to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. Points
-// may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5,
-// 0.5).
+// may lie outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at
+// (0.5, 0.5).
 struct RasterInput {
   static constexpr int most_pixels = 32768;  // limit of width and height, which keeps the coverage test exact
 
@@ -74,7 +74,7 @@ class Rasterizer {
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
-  std::vector<std::size_t> first_;  // per band, and one more: position of its first triangle
+  std::vector<std::size_t> first_;  // per band: position of its first triangle; then the number of all
   std::vector<Index> triangles_;    // triangles of each band, in the order of the scene
 };
 

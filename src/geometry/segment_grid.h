@@ -80,7 +80,7 @@ class LinesFrom {
   struct Four {
     Double4 from_x = {}, from_y = {};                        // first ends of the segments
     Double4 u_x = {}, u_y = {}, v_x = {}, v_y = {};          // both ends, relative to the start of the lines
-    Double4 step_x = {}, step_y = {}, place_is_beside = {};  // place_is_beside: twice the signed area
+    Double4 step_x = {}, step_y = {}, place_is_beside = {};  // last: > 0 if the start is left of the segment
   };
   RELIEVO_INLINE bool is_any_crossed(const Vec2& to) const;
 

@@ -14,7 +14,7 @@ namespace {
 // Limits of the effort. If a field needs more, it has too many steep triangles for this method, or its fixed
 // points allow no solution.
 constexpr int most_sweeps = 4000;
-constexpr std::size_t most_visits = 10;  // per triangle of the field, in addition to one visit per sweep
+constexpr std::size_t most_visits = 10;  // per triangle of the field on average, plus one visit per sweep
 // Triangles are made flatter than necessary by this fraction. Without it, neighbours would push each other
 // over the limit forever, by ever smaller amounts. A larger fraction pushes more neighbours over the limit.
 // So the fraction grows with the number of sweeps.
@@ -25,8 +25,9 @@ constexpr double least_spare = 2e-5, most_spare = 1e-3;
 // points further than necessary.
 constexpr int sweeps_to_scaling = 64;
 
-// Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely steep. Only
-// level triangles count as level even if they are overturned, because they are slivers that rounding has turned over.
+// Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely steep. An
+// exception are overturned triangles that are level: their slope is 0, because they are slivers that rounding has
+// turned over.
 double steepness(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
   if (!(cross(b - a, c - a) > 0)) {

@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// How far a point's slope may be from the mean slope of the triangles around the point, inside the surface and at its
-// edge. The unit is the largest distance of these triangles' slopes from their mean, measured in the direction of the
-// point's slope.
+// The largest distance of a point's slope from the mean slope of the triangles around the point, inside the surface
+// and at its edge. In the direction from that mean to the point's slope, the unit is the largest distance of the
+// triangles' slopes from their mean.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -36,7 +36,7 @@ struct FourHeights {
 class Quadratic {
  public:
   RELIEVO_INLINE explicit Quadratic(std::span<const FourHeights> heights) {
-    // Each name lists the factors of the products that are summed, apart from the weight.
+    // Weighted sums of products. Each name lists the factors.
     Double4 xx{}, xy{}, yy{}, xxx{}, xxy{}, xyy{}, yyy{}, xxxx{}, xxxy{}, xxyy{}, xyyy{}, yyyy{};
     Double4 xz{}, yz{}, xxz{}, xyz{}, yyz{};
     for (const auto& [x, y, z, is_there] : heights) {
@@ -82,7 +82,7 @@ class Quadratic {
 
  private:
   static constexpr std::size_t terms = 5;
-  std::array<std::array<double, terms>, terms> moments_{};  // the lower triangle
+  std::array<std::array<double, terms>, terms> moments_{};  // symmetric; only the lower triangle is stored
   std::array<double, terms> products_{};
 };
 
@@ -124,8 +124,9 @@ void leave_one_of_each(std::vector<Index>& numbers) {
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
-// Returns the barycentric weights of a place in the triangle a, b, s. If the place lies outside or the
-// triangle is too thin, returns the weights of the nearest place on the side a-b.
+// Returns the barycentric weights of a place in the triangle a, b, s. If the place lies outside, negative weights
+// become 0 and the others are scaled to the sum 1. If the triangle is too thin, returns the weights of the nearest
+// place on the side a-b.
 Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
   const Vec2 side = b - a;
   const Vec3 areas =
@@ -143,9 +144,10 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 // triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
-  // The square of a share of the change. If the share that is along the edge is smaller, the result tends to 0.
+  // If `change` is nearly perpendicular to the edge, its component along the edge is unreliable. The result tends to
+  // 0 where the square of this component is less than this share of the square of `change`.
   constexpr double least_along = .05;
-  constexpr double most_share = 1.5;  // shares much larger than this are noise; they are reduced
+  constexpr double most_share = 1.5;  // larger multiples of `change` are reduced, because they are noise
   const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
   const double change_along = change.dot(edge);
   const double divisor =
@@ -197,8 +199,9 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
-// Returns a flag for each point that smooth triangles touch but do not enclose. Around an enclosed point, each
-// neighbour comes after the point in one triangle and before it in another, so the sum `balance` of the point is 0.
+// Returns, per point, whether the smooth triangles around it do not enclose it. In each of them one neighbour comes
+// after the point and one before it. `balance` is the sum over the former minus the sum over the latter. Around an
+// enclosed point each neighbour comes after it once and before it once, so its balance is 0.
 std::vector<std::uint8_t> SmoothSurface::open_points() const {
   // Indices are hashed, because sums of plain indices would often be 0 by chance.
   const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };
@@ -310,7 +313,7 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
   }
   const Element e = element(t);
   const auto& p = e.corners;
-  // Of the three thirds of the triangle, `place` lies in that opposite to the corner with the least weight.
+  // `place` lies in the third of the triangle that is opposite to the corner with the least weight.
   std::array<double, 3> weight;
   for (std::size_t k = 0; k < 3; ++k) weight[k] = cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place);
   const auto i = static_cast<std::size_t>(std::ranges::min_element(weight) - weight.begin());

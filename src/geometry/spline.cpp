@@ -149,8 +149,8 @@ void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, st
   }
 }
 
-// Fits the residuals at the sites by a correction of the nodes, by equations (3) to (5) of section 3.2, with a weight
-// per site.
+// Corrects the nodes so that the spline fits the residuals at the sites. The correction follows equations (3) to (5)
+// of section 3.2, with a weight per site.
 void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Workspace& workspace) const {
   std::vector<float>& correction = workspace.correction;
   const std::size_t columns = level.columns, size = columns * level.rows;

@@ -46,7 +46,7 @@ class PointTable {
 
  private:
   struct Slot {
-    // Some bits of the hash. They differ for most different points, whose coordinates then need not be read.
+    // Some bits of the hash. Different points mostly have different bits, so their coordinates need not be read.
     std::uint32_t check;
     Index number;
   };

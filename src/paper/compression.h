@@ -36,8 +36,8 @@ inline Vec3 expected_normal(const Vec3& normal, double w) {
   return w * normal + (1 - w) * Vec3::UnitZ();
 }
 
-// Returns the slope (dz/dx, dz/dy) of a surface with this normal, which may have any length. Slopes above
-// `max_slope` are shortened to it. The limit is needed because the paper's matrix in (9) is constant only if
+// Returns the slope (dz/dx, dz/dy) of a surface with this normal, which may have any length. Slopes longer than
+// `max_slope` are shortened to this length. The limit is needed because the paper's matrix in (9) is constant only if
 // each row is divided by the z of the expected normal, 1 - w (1 - n_z). This z is 1 on the boundary, but goes
 // to 0 where w is near 1 and the surface turns away from the viewer, as beside depth jumps.
 inline Vec2 slope_of(const Vec3& normal, double max_slope) {

@@ -83,8 +83,8 @@ std::size_t NormalEquations::memory() const {
   return factor_.memory() + bytes(steps_) + bytes(rows_.begin) + bytes(rows_.items);
 }
 
-// The right-hand side is A^T b. Each row z_p - z_q = s_p . (p - q) adds s_p . (p - q) to element p of it, and
-// subtracts it from element q.
+// The right-hand side is A^T b. For each row z_p - z_q = s_p . (p - q), the number s_p . (p - q) is added to element p
+// of A^T b and subtracted from element q.
 void NormalEquations::solve(std::span<const Vec2f> slopes, std::span<float> heights,
                             Workspace& workspace) const {
   parallel_for(size(), [&](std::size_t i) {

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// The factored system (9), for all visible points, or for the control points with the mapping to all visible points.
-// Const calls may run concurrently if each has its own workspace.
+// Solves the system (9), which is factored once. Its unknowns are the heights of all visible points, or those of the
+// control points, from which map() computes the others. Const calls may run concurrently if each has its own workspace.
 class PaperModel {
  public:
   // Scratch memory, so that solve() and map() allocate nothing.
@@ -51,7 +51,7 @@ class PaperModel {
 
   struct ControlPoint {
     Vec3f normal;
-    float k = 0, distance = 0;  // `distance` is that to the boundary
+    float k = 0, distance = 0;  // `distance`: from the point to the boundary
   };
 
   paper::NormalEquations system_;

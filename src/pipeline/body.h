@@ -25,8 +25,8 @@ Vec2 plate_size_of(const ReliefOptions& options);
 // solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns the limits for simplifying the front. A curved base takes a part of the tolerance, which is
-// subtracted here. The options must ask for simplification.
+// Returns the limits for simplifying the front. The shares of the tolerance that later steps need are subtracted, such
+// as that of a curved base. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
 // Returns whether make_plate() simplifies the solid, because simplified_front() cannot. Returns true for

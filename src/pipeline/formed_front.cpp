@@ -118,7 +118,7 @@ Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress
   return FormedBody{std::move(formed), std::move(body)};
 }
 
-// Returns the options with this limit for the front's triangles.
+// Returns the options with `front_triangles` as the limit for the number of the front's triangles.
 ReliefOptions with_front_limit(ReliefOptions options, double front_triangles) {
   options.triangles = std::max(1., std::floor(front_triangles));
   return options;

@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// From this value of u, the coefficient in equation (6), all weights are exactly 1.
+// If u, the coefficient in equation (6), has at least this value, all weights are exactly 1.
 constexpr double uncompressed_u = 1e12;
 
 // While the picture moves, viewers do not notice that heights are wrong by up to this share.
@@ -60,8 +60,7 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // Returns the options of a frame. The tone curve object is reused if its points are the same, because equal
-  // frames share it.
+  // Returns the options of a frame. If the tone curve has the same points as the last one, the last object is reused.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side)};
     wanted.shape.boundary_width *= shown.spacing_ratio;

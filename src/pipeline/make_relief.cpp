@@ -50,7 +50,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Reports the heights of a front that the tool can reach. The tool leaves material in narrow and deep places.
+// Reports the heights of the front as the tool cuts it: the tool leaves material in narrow and deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -104,7 +104,7 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Returns the heights of the base under the surface's points, in the surface's units; no heights for a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; empty if the base is a plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();

@@ -162,7 +162,8 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the first coarse relief before the model, if wanted. Making both at the same time would take longer.
+  // Makes the first coarse relief if it is wanted. The model is made afterwards, because making both at the same time
+  // would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
@@ -215,8 +216,8 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns the turntable of the points that were measured last. If these are visible in one view only, first
-  // measures the points of all sides.
+  // Returns the turntable of the points that were measured last. If these were sampled or cropped for a single view,
+  // first measures the points of all sides.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides, has_first] = shared.with([](const Shared& s) {
       return std::tuple(s.turntable, s.measured, s.all_sides, s.first.has_value());

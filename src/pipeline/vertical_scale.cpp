@@ -29,7 +29,7 @@ class ValueScale {
   double above_ground(const Vec3& p) const { return std::max(0., rising(p) - ground_); }
 
  private:
-  // Returns the point's value. It is negated if values increase away from the viewer.
+  // Returns the point's value, or its negative if values increase away from the viewer.
   double rising(const Vec3& p) const { return (p.z() + centre_) / std::abs(units_per_value_); }
   double sign() const { return std::copysign(1., units_per_value_); }
 

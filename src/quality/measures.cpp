@@ -139,7 +139,7 @@ struct ReliefMetrics::Reference : ModelPicture {
     return smoothed;
   }
 
-  // Sets halo, steep_share, height_used and the steps. Uses also the pixels that the other measures ignore.
+  // Sets halo, steep_share, height_used, jump_step and rim_step. Uses all pixels, not only the measured ones.
   void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));

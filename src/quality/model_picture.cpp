@@ -11,8 +11,8 @@ namespace relievo {
 
 namespace {
 
-// Returns for each triangle whether one of its corners is at a depth jump. The walls at jumps alone are too narrow to
-// be drawn: less than a pixel.
+// Returns for each triangle whether one of its corners is at a depth jump. The triangles across jumps would not
+// suffice: they form walls narrower than a pixel, which are not drawn.
 std::vector<std::uint8_t> around_jumps(const Surface& surface) {
   const std::vector<Triangle>& triangles = surface.triangulation.triangles;
   std::vector<std::uint8_t> is_around = jump_triangles(surface), is_at_jump(surface.points.size());

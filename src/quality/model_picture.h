@@ -22,8 +22,8 @@ class BarycentricMap {
   std::size_t pixels() const { return places_.size(); }
   double units_per_pixel() const { return units_per_pixel_; }
 
-  // Returns the position of a point in the picture: x to the right, y down, the first pixel's centre at (0.5,
-  // 0.5).
+  // Returns the position of a point in the picture: x to the right, y down, the first pixel's centre at
+  // (0.5, 0.5).
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - centre_) / units_per_pixel_;
     return {width() / 2.0 + p.x(), height() / 2.0 - p.y()};

@@ -120,8 +120,8 @@ SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) con
       residuals.add(across);
       residuals.add(along);
     }
-    // The angles across and along are components of one angle, so the sum of their squares is divided by half the
-    // number of values.
+    // A triangle has two values, across and along, which are components of one angle. So the sum of squares is divided
+    // by the number of triangles, half the number of values; hence the factor sqrt(2).
     return std::sqrt(2.) * residuals.deviation();
   };
   return {deviation(silhouettes_), deviation(jumps_)};

@@ -17,10 +17,10 @@ namespace {
 // spans a gap and is outside the relief. Smaller circles are due to sampling.
 constexpr double gap = 3;
 
-// Returns the unit in which the radius of a triangle's empty circle is measured: the smallest spacing of its corners
-// if all three are sparse, else rho.
+// Returns the unit for the radius of a triangle's empty circle: rho or, if all three corners are sparse, the smallest
+// of their local spacings.
 double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
-  constexpr double sparse = 2;  // in rho; a larger spacing is sparse
+  constexpr double sparse = 2;  // in rho; a corner with a larger local spacing is sparse
   if (spacing.empty()) return rho;
   const auto least = static_cast<double>(std::min({spacing[t[0]], spacing[t[1]], spacing[t[2]]}));
   return least > sparse * rho ? least : rho;

@@ -20,7 +20,7 @@ constexpr double outline_weight = 2, crease_weight = .5, ground_weight = .6;
 struct Cell {
   Index front = no_index;
   double front_z = 0, back_z = 0;
-  Vec3f normal = Vec3f::Zero();  // of the front point; turned to the viewer if signs are unknown
+  Vec3f normal = Vec3f::Zero();  // normal of the front point, turned to the viewer if signs are unknown
 
   bool is_empty() const { return front == no_index; }
 

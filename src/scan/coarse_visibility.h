@@ -43,12 +43,12 @@ bool normals_point_inward(std::span<const CoarseVisibility> sides);
 enum class OriginalNormals { usable, missing, inward };
 
 // Estimates the normals of a cloud in view coordinates if it has none, and reverses its normals if they point
-// inwards. `cloud` is the same cloud before it was turned into the view. Returns the state in which the normals were
-// before.
+// inwards. `cloud` is the same cloud before it was turned into the view. Returns the state of the normals before the
+// call.
 OriginalNormals orient_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud);
 
-// Gives the estimated normals of a cloud in view coordinates consistent signs: the normals of visible points
-// face the viewer.
+// Makes the signs of estimated normals consistent, so that the normals of visible points face the viewer. The cloud
+// is in view coordinates.
 void give_signs(Cloud& viewed, const Spacing& spacing);
 
 // Returns whether all normals face the viewer, as in a depth image of a room. Such normals seem to point

@@ -21,7 +21,7 @@ constexpr double support = 1.7;
 
 // Four neighbours of a point. Unused entries lie beyond the radius, where the weight is 0.
 struct FourNeighbours {
-  Double4 x{2, 2, 2, 2}, y = {}, z = {};  // from the neighbour to the point, in radii
+  Double4 x{2, 2, 2, 2}, y = {}, z = {};  // vector from the neighbour to the point, in radii
   Double4 n_x = {}, n_y = {}, n_z = {};   // the neighbour's unit normal
 };
 
@@ -41,9 +41,8 @@ RELIEVO_INLINE Vec3 mean_normal(std::span<const FourNeighbours> neighbours) {
   return {total(x), total(y), total(z)};
 }
 
-// Weighted sums over the neighbours. `moments` has those of products of 1, u and v, where u and v are the neighbours'
-// coordinates in the tangent plane; `products` has those of 1, u and v times the two components of the normals in
-// this plane.
+// Weighted sums over the neighbours of a b^T, where a = (1, u, v) has a neighbour's coordinates in the tangent plane.
+// In `moments`, b is equal to a. In `products`, b has the two components of the neighbour's normal in that plane.
 struct TangentSums {
   Mat3 moments;
   Eigen::Matrix<double, 3, 2> products;
@@ -145,12 +144,12 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  // Each pass averages over direct neighbours and widens the average by about rho, so the result spans at least 2
-  // rho.
+  // Each pass averages over direct neighbours and widens the average by about rho, so the result spans at least
+  // 2 rho.
   constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
-  // The weight of corner c + 1 in the mean at corner c.
+  // Per triangle and corner c: the weight of corner c + 1 in the mean at corner c.
   std::vector<std::array<double, 3>> areas(triangles.size());
   parallel_for(triangles.size(), [&](std::size_t t) {
     for (std::size_t c = 0; c < 3; ++c) {

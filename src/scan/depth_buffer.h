@@ -24,8 +24,8 @@ class DepthBuffer {
   // there.
   void splat(const std::vector<Disc>& discs);
 
-  // Removes discs that were drawn. The buffer is divided into squares of pixels. Those that a removed disc touches
-  // are drawn again, with the remaining discs, `rest`, that touch them.
+  // Removes the discs `gone`; `rest` are all others that were drawn. The buffer is divided into squares of pixels.
+  // Each square that a removed disc touches is cleared, and the remaining discs that touch it are drawn again.
   void take_away(const std::vector<Disc>& gone, const std::vector<Disc>& rest);
 
   // Returns whether take_away() has redrawn the pixel that contains (x, y). The position must lie in the box.

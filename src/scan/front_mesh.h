@@ -7,9 +7,8 @@
 namespace relievo {
 
 // Returns a mesh of the cloud's visible points, triangulated as for a relief of the cloud. The cloud has normals and
-// is in view coordinates. A triangle across a depth jump is divided among its corners; each part lies in the tangent
-// plane of its corner. Wide triangles over narrow holes get the normal (0, 0, 1). The mesh is empty if no point is
-// visible.
+// is in view coordinates. A triangle across a depth jump is divided into three parts, one in the tangent plane of each
+// corner. Wide triangles over narrow holes get the normal (0, 0, 1). The mesh is empty if no point is visible.
 Mesh front_mesh(const Cloud& viewed, const Spacing& spacing);
 
 }  // namespace relievo

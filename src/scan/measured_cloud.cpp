@@ -41,8 +41,8 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
-// Returns the step between single-precision numbers at the largest coordinate; 0 if single precision cannot
-// represent all coordinates exactly.
+// Returns the step between single-precision numbers at the largest coordinate; 0 if a coordinate has more digits than
+// single precision represents.
 double step_of_digits(const Cloud& cloud) {
   float largest = 0;
   for (const Vec3& p : cloud.points)
@@ -130,7 +130,8 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud.has_normals();
   if (has_estimated_normals_) {
-    estimate_normals(cloud, 16, progress);  // noise is measured once the view has given the normals signs
+    // The view decides the signs of these normals. Noise is measured when the signs are known.
+    estimate_normals(cloud, 16, progress);
     return check_cancelled(progress);
   }
   measured_noise_ = measure_noise(cloud, spacing_);
@@ -190,7 +191,8 @@ std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Ve
 
 bool MeasuredCloud::serves(const View& view) const {
   View same = view_;
-  // These fields need no other measurements. A new field does, unless it is added here.
+  // Views that differ only in these fields share their measurements. A new field of View requires new measurements
+  // unless it is added here.
   same.has_crumbs = view.has_crumbs;
   same.most_pieces = view.most_pieces;
   same.has_plane = view.has_plane;

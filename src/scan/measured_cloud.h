@@ -27,7 +27,7 @@ class MeasuredCloud {
   struct Scan {
     Cloud cloud;
     std::unique_ptr<const KdTree<Vec3>> tree;
-    std::vector<std::uint8_t> is_clean = {};  // per point, whether noise was removed; empty if there is none
+    std::vector<std::uint8_t> is_clean = {};  // per point: whether its noise was removed; empty if nowhere
   };
 
   // Returns the points relative to the centre of their box, in the axes of the cloud and in the order of a
@@ -67,7 +67,7 @@ class MeasuredCloud {
 
   View view_;
   std::shared_ptr<Scan> scan_ = std::make_shared<Scan>();
-  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // noise is removed where views have needed it
+  mutable Guarded<std::shared_ptr<const Scan>> clean_;  // without noise at the points that views have needed
   Spacing spacing_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;

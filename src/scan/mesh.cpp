@@ -67,7 +67,8 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if (!looks_away) return;
     std::swap(corners[1], corners[2]);
     std::swap(normals[1], normals[2]);
-    // Normals that agree with the old order of the corners are reversed, too. Otherwise only the order was wrong.
+    // If the normals agree with the old order of the corners, the triangle shows its back, and they are reversed, too.
+    // Otherwise only the order was wrong.
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });
@@ -106,7 +107,7 @@ std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& option
   if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
-  const int tries = 4;  // finer pixels may show a thin wire that coarser ones miss
+  const int tries = 4;  // each try has finer pixels, which may show a thin wire that coarser ones miss
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
     const bool is_sure = covered > 1000;  // with so many pixels the area is accurate to a few per cent
@@ -189,9 +190,8 @@ class Sampler {
   }
 
   // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. Goes from that
-  // pixel towards the other one, up to the last fine pixel that shows the mesh. Adds the point there, unless that is
-  // next to the centre of the pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first
-  // pixel.
+  // pixel towards the other one, and adds the point at the last fine pixel that shows the mesh, unless this is next to
+  // the centre of the pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;
@@ -226,7 +226,7 @@ class Sampler {
   const SeenMesh& seen_;
   double fine_pixel_;
   RasterInput scene_;
-  int columns_, rows_;  // numbers of pixels
+  int columns_, rows_;  // numbers of pixels, not of fine pixels
   Image<Index> along_rows_, along_columns_;
 };
 

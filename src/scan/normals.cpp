@@ -15,14 +15,15 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_neighbours = 64;  // of a point; arrays of this size are on the stack
+constexpr std::size_t most_neighbours = 64;  // per point; arrays of this size are on the stack
 
 using Eigenvectors = Eigen::SelfAdjointEigenSolver<Mat3>;
 
-// Returns a quadratic form whose eigenvector of least eigenvalue is the likeliest normal of a plane through the
-// members. Two deviations are assumed to be normally distributed: the distances of the points from the plane, and the
-// slants of their axes (see Cloud::axes) to its normal. The form is the sum of both squared deviations, each divided
-// by its variance, which is estimated from the best fit to this deviation alone. `covariance` has the trace 1.
+// Returns a quadratic form of a plane's normal. Its eigenvector with the least eigenvalue is the likeliest normal of
+// the plane through the members. Two deviations are assumed to be normally distributed: the distances of the points
+// from the plane, and the angles between their axes (see Cloud::axes) and its normal. The form is the sum of both
+// squared deviations, each divided by its variance. A variance is estimated from the plane that fits this deviation
+// alone. `covariance` has the trace 1.
 Mat3 with_axes(const Mat3& covariance, std::span<const Vec3f> axes, std::span<const Index> members) {
   constexpr double fewest = 4, least_variance = 1e-9;
   Mat3 sum = Mat3::Zero();
@@ -102,7 +103,7 @@ void turn_to_viewer(Cloud& viewed) {
 }
 
 void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
-  constexpr float seen_well = .5F;  // n_z of 60 degrees; for steeper points the estimated sign is unreliable
+  constexpr float seen_well = .5F;  // n_z at a tilt of 60 degrees; if it is steeper, the sign is unreliable
   // The points whose normals have their final signs, in the order in which they got them. This is also the
   // queue of a breadth-first search.
   std::vector<Index> settled;

@@ -1,4 +1,4 @@
-// Finds the side that was scanned. For the choice of these constants see docs/decisions/best-view.md.
+// Finds the side that was scanned. For the choice of the constants see docs/decisions/best-view.md.
 #include "scan/scanned_side.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// The least share one_layer of one-sided scans; that of closed models is below .45.
+// The least CoarseVisibility::one_layer of one-sided scans. Closed models have less than .45.
 constexpr double one_layer_share = .8;
 constexpr double same_share = .05;  // smaller differences of one_layer between directions are ignored
 
@@ -50,8 +50,8 @@ Mat3 second_moment(std::size_t count, F vector) {
   return sum / static_cast<double>(count);
 }
 
-// Finds the scan's own direction. The candidates are the mean direction of the normals, their principal
-// direction, and the directions of the least and second least extent of the points.
+// Finds the direction of the scan, whatever the axes of its file are. The candidates are the mean direction of the
+// normals, their principal direction, and the directions of the least and second least extent of the points.
 class OwnDirection {
  public:
   OwnDirection(const Cloud& cloud, NormalSigns signs) : cloud_(cloud), signs_(signs) {}
@@ -73,9 +73,9 @@ class OwnDirection {
     return best_;
   }
 
-  // Returns the angle to an axis below which the view is along that axis instead of the direction found. The angle is
-  // small for flat scans such as coins, whose direction is exact. It is large for others such as busts, whose
-  // direction depends on which parts were scanned.
+  // Returns an angle in degrees. If the direction found is closer to an axis of the file than this, the view is along
+  // the axis. The angle is small for flat scans such as coins, whose direction is exact. It is large for others such
+  // as busts, whose direction depends on which parts were scanned.
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
  private:
@@ -145,8 +145,8 @@ double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
   return static_cast<double>(std::ranges::count(is_stood_on, true)) / is_stood_on.size();
 }
 
-// Rotates the view so that the object stands on its broadest foot, if that is much broader than the foot in the given
-// view. Angles are multiples of `step_deg`.
+// Rotates the view about the line of sight, so that the object stands on its broadest foot. Returns the given view
+// unless this foot is much broader than the foot in it. Angles are multiples of `step_deg`.
 Side standing(const Cloud& cloud, const Side& side, int step_deg) {
   constexpr double broad = .6, broader = 2, same = .05;
   const Vec3 x = side.up.cross(side.towards_viewer);
@@ -167,7 +167,7 @@ Side standing(const Cloud& cloud, const Side& side, int step_deg) {
 }  // namespace
 
 std::optional<Side> scanned_side(const Cloud& cloud, NormalSigns signs) {
-  constexpr double camera_weight = .5;  // weight as evidence for an outside, see CoarseVisibility::outside
+  constexpr double camera_weight = .5;  // weight of camera_along_z() relative to CoarseVisibility::outside
   const double camera = camera_along_z(cloud);
   const std::optional<Vec3> along = scan_direction(cloud, signs, camera != 0);
   if (!along) return {};

@@ -16,9 +16,9 @@ struct Side {
 
 // Returns the side of the scan if a single view shows everything that was scanned; nothing if the cloud has several
 // layers from every direction.
-// - The view is along an axis of the file if the scan's own direction is close to it, otherwise along that direction.
-// It never shows the hollow back. To recognise the back, the signs of the normals are used. If they are unknown, the
-// shape decides, and whether a camera at the file's origin could have seen the cloud.
+// - The view is along the direction of the scan or, if an axis of the file is close to that direction, along the axis.
+// It never shows the hollow back. The back is recognised by the signs of the normals. If they are unknown, it is
+// recognised by its shape, and by whether a camera at the file's origin could have seen the cloud.
 // - Up is Y, or Z in views along Y. In files of cameras that look along +Z, up is -Y. If the outline has a broad
 // straight foot on another side, that side is down.
 // The cloud must have normals and no outliers.

@@ -11,7 +11,8 @@
 namespace relievo {
 namespace {
 
-// Almost all points have local spacings of at most largest_ratio * rho. The other points may be outliers.
+// rho is so large that the share `almost_all` of the points has local spacings of at most largest_ratio * rho. The
+// other points may be outliers.
 constexpr double almost_all = .98, largest_ratio = 4;
 
 }  // namespace

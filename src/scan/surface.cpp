@@ -42,9 +42,10 @@ struct ComponentExtent {
 // cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than the largest one.
 void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                          std::vector<Index>& visible) {
-  constexpr double low = 4;  // high points are above this height, in tolerances of the plane,
-  constexpr double flat =
-      .05;  // high points are also above this share of the diagonal of the component's box
+  // A point is high if its height above the plane exceeds `low` tolerances of the plane, and the share `flat` of the
+  // diagonal of its component's box.
+  constexpr double low = 4;
+  constexpr double flat = .05;
   constexpr double connected = 3;    // neighbours closer than this, in local spacings, are in one component
   constexpr double high_share = .1;  // least share of high points in a figure
   // Size of the smallest part that is kept, as a share of the largest part.
@@ -114,7 +115,7 @@ std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Inde
   return k;
 }
 
-// Runs stages 3 and 4: sets the surface's points, normals and colours.
+// Finds the visible points and their curvature. Sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;
@@ -148,7 +149,7 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Runs stage 5, and sets `is_inside` of stage 6. put_points_on_outlines() sets the rest of the boundary.
+// Triangulates the surface's points, and sets boundary.is_inside. Other functions set the rest of the boundary.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
@@ -186,7 +187,7 @@ struct FoundPoints {
   std::vector<OutlineSegment> outlines;
 };
 
-// Runs stages 2 to 4, which need the whole cloud.
+// Turns the cloud into the view and finds the visible points. These stages need the whole cloud.
 Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface = surface_of_view(measured, view);
   ViewedCloud viewed = look_at(measured, surface, progress);
@@ -196,7 +197,7 @@ Result<FoundPoints> find_points_in_view(const MeasuredCloud& measured, const Vie
   return FoundPoints{std::move(surface), std::move(measures), std::move(viewed.cloud.outlines)};
 }
 
-// Runs stages 5 and 6, and normalises the curvature.
+// Finds the triangulation and the boundary, and normalises the curvature.
 Result<Surface> connect_points(FoundPoints found, Progress* progress) {
   auto& [surface, measures, outlines] = found;
   RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));

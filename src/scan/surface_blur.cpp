@@ -33,7 +33,7 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   columns_ = columns_around_points(width_ * static_cast<std::size_t>(count(1)));
 }
 
-// Returns the first `count` columns, each with the cells that are needed around the points, and an empty column.
+// Returns the first `count` columns, each with the cells that are needed around the points, and then an empty column.
 std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t count) const {
   std::vector<Column> filled(count), around(count + 1);
   for (const Place& place : places_)

@@ -20,9 +20,9 @@ namespace {
 
 using Sides = std::array<ViewGuess, 6>;
 
-constexpr double front_weight = 1.6;   // factor of the side that is the front in most files
-constexpr double beside_scan = .25;    // factor of the sides perpendicular to the direction of a scan
-constexpr double perhaps_hollow = .5;  // factor of sides with the shape of a hollow back
+constexpr double front_weight = 1.6;   // factor for the score of the side that is the front in most files
+constexpr double beside_scan = .25;    // factor for the sides perpendicular to the direction of a scan
+constexpr double perhaps_hollow = .5;  // factor for sides with the shape of a hollow back
 
 // Formats a direction for parse_view().
 std::string text_of(const Vec3& direction) {
@@ -53,8 +53,8 @@ Sides sides_around(const Side& front) {
           guess_of({right, up}), guess_of({-up, towards}), guess_of({up, -towards})};
 }
 
-// Returns the area of the bounding box of the lowest points along an axis (or along its opposite), as a share
-// of the whole box's area. Both areas are perpendicular to the axis.
+// Returns the area of the bounding box of the lowest points along an axis (along its opposite if `sign` is -1), as a
+// share of the area of the whole box. Both areas are measured perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   constexpr double foot = .03;  // share of the height; points within it belong to the foot
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
@@ -85,8 +85,8 @@ std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, 
   return coarse_visibility(cloud, views, signs);
 }
 
-// Returns a factor for the rank of a side that is small if the side is a hollow back: from the signs of the normals
-// or, without signs, from the shape.
+// Returns a factor for the score of a side. It is small if the side is a hollow back, which is recognised by the signs
+// of the normals or, without signs, by the shape.
 double outside_share(const CoarseVisibility& seen, bool has_signs) {
   if (has_signs) return seen.facing_share;
   return seen.outside < 0 ? perhaps_hollow : 1;

@@ -68,7 +68,7 @@ double facing_share(const ViewedCloud& viewed) {
   return total > 0 ? facing / total : 1;
 }
 
-// Returns the options for the best view of the cloud other than `view`.
+// Returns the text of the options that select the best view of the cloud other than `view`.
 std::string other_view(const MeasuredCloud& measured, const View& view) {
   Cloud cloud = measured.cloud();
   for (Vec3& p : cloud.points) p += measured.centre();

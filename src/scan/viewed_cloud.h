@@ -28,8 +28,8 @@ ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface, const Progr
 // behind.
 Result<void> check_side(const ViewedCloud& viewed, const View& view);
 
-// too_few_visible() returns the error for a view in which only `visible` points face the viewer, no_area_error() that
-// for collinear visible points.
+// too_few_visible() returns the error for a view in which only `visible` points face the viewer. no_area_error()
+// returns the error for visible points that are collinear.
 std::unexpected<Error> too_few_visible(std::size_t visible);
 std::unexpected<Error> no_area_error();
 

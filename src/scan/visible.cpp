@@ -25,8 +25,8 @@ constexpr double connection_length = 3;
 // A set is a fragment only if it has fewer points than the number of visible points divided by this.
 // Otherwise all of a small cloud would be fragments.
 constexpr std::size_t fragment_divisor = 8;
-// Lengths in rho. Only points with at most the first local spacing may become hole-fill points, because only densely
-// sampled surfaces supply them. The second is the least distance between hole-fill points.
+// Lengths in rho. Only densely sampled surfaces, with local spacings below `sparsest_hole_fill`, supply hole-fill
+// points. `hole_fill_spacing` is the least distance between these.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
@@ -96,8 +96,8 @@ class Visibility {
     return points;
   }
 
-  // Removes the fragments from the points and the buffer. If the box of the points shrinks, the buffer's pixels move
-  // and all points are drawn again; otherwise only the places where fragments were drawn are.
+  // Removes the fragments from the points and the buffer. If the box of the points shrinks, the buffer's pixels move,
+  // and all points are drawn again. Otherwise only the places where fragments were drawn are drawn again.
   void leave_out_fragments(Facing& facing) const {
     std::vector<Disc> gone;
     Box box;

@@ -101,8 +101,8 @@ void count_sides(Bisection& cut) {
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// Edges that cross the whole band are not in the band's graph, so they may still connect the two sides. Their ends on
-// the first side are moved to the separator.
+// The band's graph lacks edges that cross the whole band, so these may still connect the two sides. Moves the ends of
+// such edges on the first side to the separator.
 void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;

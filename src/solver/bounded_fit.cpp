@@ -27,8 +27,8 @@ Vector hessian(const BoundedFit& fit, const Vector& misfit) {
 // The matrix H + D of a Newton step; D is diagonal. Systems with this matrix are solved by preconditioned
 // conjugate gradients. A membrane has H = A, and the preconditioner is A + D. A plate has H = A M^-1 A, and
 // the preconditioner is (A + E) M^-1 (A + E) with E = sqrt(M D), which equals H + D plus mixed terms (Pearson
-// and Wathen, 2012). The number of iterations hardly grows with the number of unknowns. Only A + D or A + E
-// is factored, which is as sparse as A.
+// and Wathen, 2012). The number of iterations hardly grows with the number of unknowns. The only matrix that is
+// factored, A + D or A + E, is as sparse as A.
 class NewtonMatrix {
  public:
   static Result<NewtonMatrix> factor(const BoundedFit& fit, Vector D) {
@@ -137,7 +137,7 @@ class InteriorPoint {
   const BoundedFit& fit_;
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
-  // The next step aims at products of distance and multiplier that are this share of their present mean.
+  // The next step aims at the same product of distance and multiplier at all bounds: this share of the present mean.
   double centring_ = .2;
 };
 

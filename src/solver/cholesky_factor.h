@@ -17,8 +17,8 @@ namespace relievo::solver {
 //
 // Each task has a work vector with one number per column of its own, then one per boundary row. A boundary row is a
 // row of the task's supernodes that is a column of another task, an ancestor. A task writes only to its own work
-// vector. Its parent reads the amounts that it added to its boundary rows. So results do not depend on the number of
-// threads.
+// vector. In its boundary rows it leaves amounts, which its parent adds to its own work vector. So results do not
+// depend on the number of threads.
 struct Task {
   Index first_column = 0, end_column = 0;
   Index first_node = 0, end_node = 0;      // range of the task's supernodes
@@ -37,8 +37,8 @@ struct Task {
 inline constexpr Index largest_subtree_work_vector = 0xFFFF;
 
 // The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is stored
-// once, at the earlier column. An entry between two tasks is stored in both, so that a task can compute its rows of a
-// product without writing to the rows of the other task.
+// once, at the earlier column. An entry between two tasks is stored in both. So each task can compute its rows of a
+// product with the matrix without writing to the rows of the other task.
 struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};

@@ -44,7 +44,8 @@ class Multifrontal {
   std::vector<Index> failed_;         // per task: the column whose pivot failed
 };
 
-// Returns whether the task stores the entry in row or column `other` at `column`, by the rule of TaskMatrix.
+// Returns whether the task stores the matrix entry of `column` and `other` in the list of `column`. TaskMatrix states
+// the rule.
 bool is_kept(const Task& task, Index column, Index other) {
   return other > column || other < task.first_column;
 }
@@ -87,8 +88,8 @@ void Multifrontal::fill_matrix() {
   parallel_for(n, [&](std::size_t j) { matrix.diagonal[j] = A_.diagonal[factor_.order[j]]; });
 }
 
-// Adds the entries of `width` columns of A to the frontal matrix. slot[r] is the row of the frontal matrix
-// for row r of the work vector.
+// Adds the entries of `width` columns of A, from `first`, to the frontal matrix. Row r of the work vector corresponds
+// to row slot[r] of the frontal matrix.
 void Multifrontal::add_matrix(const Task& task, Index first, Index width, std::span<const Index> slot,
                               FrontalMatrix& front) const {
   const TaskMatrix& matrix = factor_.matrix;
@@ -151,8 +152,8 @@ void Multifrontal::eliminate_supernode(std::size_t t) {
   pack(front, task.own(), contribution_[t].data());
 }
 
-// Eliminates the supernodes of a subtree in postorder. So the contribution blocks of a supernode's children
-// are on top of a stack when the supernode is assembled.
+// Eliminates the supernodes of a subtree in postorder. So the contribution blocks of a supernode's children are on top
+// of the stack when the supernode's frontal matrix is assembled.
 class Multifrontal::Subtree {
  public:
   Subtree(Multifrontal& outer, std::size_t t)
@@ -178,7 +179,7 @@ class Multifrontal::Subtree {
 
  private:
   struct Pending {
-    std::span<const std::uint16_t> rows;  // positions in the work vector; the first one belongs to the parent
+    std::span<const std::uint16_t> rows;  // positions in the work vector; the first is a column of the parent
     std::size_t begin;
   };
 
@@ -204,7 +205,7 @@ class Multifrontal::Subtree {
     pop();
   }
 
-  // Adds the contribution block of a supernode whose parent belongs to another task to the block of this task.
+  // Adds the last contribution block of the stack to that of the task. The parent of its supernode is in another task.
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
@@ -225,7 +226,7 @@ class Multifrontal::Subtree {
   std::size_t t_;
   const Task& task_;
   Packed& contribution_;
-  std::vector<Index> slot_, child_slots_;  // slot_: per row of the work vector, that of front_
+  std::vector<Index> slot_, child_slots_;  // slot_: per row of the work vector, the row of front_
   float* values_;
   FrontalMatrix front_;
   std::vector<double> stack_;

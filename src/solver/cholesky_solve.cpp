@@ -30,7 +30,7 @@ namespace {
 
 using Factor = Cholesky::Factor;
 
-// Forward and backward substitution, task by task.
+// Makes the forward and the backward substitution of a task.
 struct Substitution {
   const Factor& factor;
   std::vector<float>& work_vectors;
@@ -224,8 +224,8 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const int most_steps = 6;  // each step gains about seven digits; two suffice unless A is ill-conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
-    // All steps reduce the residual by about the same factor. If the next residual is small enough by this estimate,
-    // it need not be computed.
+    // All steps reduce the residual by about the same factor. If by this estimate the next residual is small enough,
+    // it is not computed.
     if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;

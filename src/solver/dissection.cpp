@@ -63,8 +63,8 @@ class MinimumDegree {
     return static_cast<Index>(std::lower_bound(outside_.begin(), outside_.end(), vertex) - outside_.begin());
   }
 
-  // Connects all neighbours of v with each other, because eliminating v causes this fill. Only vertices of the piece
-  // have bit sets, so the loop ends at the first neighbour outside.
+  // Connects all neighbours of v with each other, because eliminating v causes this fill. Neighbours outside the piece
+  // come last and have no bit sets, so the loop ends at the first of them.
   void eliminate(Index v) {
     degree_[v] = no_index;
     const std::uint64_t* eliminated = set(v);
@@ -193,8 +193,8 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// Returns a number from 0 to 4 that increases with the angle of a vector. It replaces the angle, and needs no arc
-// tangent.
+// Returns a number from 0 to 4 that increases with the angle of a vector. It replaces the angle in comparisons, and
+// needs no arc tangent.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
   const float turn = sum > 0 ? step.x() / sum : 0;

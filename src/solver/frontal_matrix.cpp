@@ -8,9 +8,8 @@
 namespace relievo::solver {
 namespace {
 
-// Arguments of C -= A B^T, where C is a `rows` x `columns` matrix, A `rows` x `depth` and B `columns` x
-// `depth`, all stored by columns. If `is_lower`, only the lower triangle of the square at the top of C is
-// computed.
+// Arguments of C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth`, and B `columns` x `depth`. All
+// are stored by columns. If `is_lower`, only the lower triangle of the square at the top of C is computed.
 struct Product {
   double* c;
   const double* a;
@@ -117,7 +116,8 @@ Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
 
-// Halves the range of columns until few are left, so that matrix products do nearly all arithmetic.
+// Eliminates the left half of the columns, updates the right half by a matrix product, and eliminates that. Halves are
+// halved again until few columns are left, so that matrix products do nearly all arithmetic.
 Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
                             std::span<const double> smallest_pivot) {
   if (width <= narrow) return RELIEVO_WIDE(eliminate(front, begin, width, smallest_pivot));
@@ -130,9 +130,9 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// Inverts the right half of the columns, then the left half. If the left columns are [La; Lb; Ld] and the right ones
-// [Lc; Le], the right ones are replaced by [Wc; We] first. Then the rows below La become [Wc Lb; Ld + We Lb], and the
-// left columns are inverted.
+// Inverts the right half of the columns, then the left half. Let the left columns be [La; Lb; Ld] and the right ones
+// [Lc; Le]. First the right ones are replaced by their inverse [Wc; We]. Then the rows below La become
+// [Wc Lb; Ld + We Lb]. Last the left columns are inverted.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;

@@ -44,8 +44,8 @@ ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector
     if (is_free(n)) couple(n, tie_of);
 }
 
-// Returns the ties of the coarser level: one for each coarse cell with ties, at their mean position weighted by
-// stiffness.
+// Returns the ties of the coarser level. The ties in a coarse cell become one tie, at the mean of their positions
+// weighted by stiffness.
 std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   std::vector<Tie> coarse;
   std::vector<Index> tie_of(diagonal_.size(), no_index);
@@ -63,7 +63,8 @@ std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   return coarse;
 }
 
-// Adds a free node to the nodes of its colour, together with its weights in the ties of the four cells around it.
+// Adds a free node to the nodes of its colour, with its weights in the ties of the four cells around it. `tie_of` has
+// the tie of each cell.
 void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
@@ -97,9 +98,9 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Returns the next coarser level, with every other node of every other row. A coarse node gets the least bending
-// stiffness of the fine node at its position and of that node's free neighbours. Its tension is the harmonic mean of
-// the tensions of that node and its four neighbours. So thin hinges between stiff regions remain.
+// Returns the next coarser level, with every other node of every other row. The bending stiffness of a coarse node is
+// the least of those of the fine node at its position and of that node's free neighbours. Its tension is the harmonic
+// mean of those of the fine node and its four neighbours. So thin hinges between stiff regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -256,8 +257,8 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // The tie of a coarse cell has the sum of the stiffnesses of several ties. With this stiffness the sweeps would
-    // not converge, so the factors of the ties are reduced.
+    // The stiffness of a coarse tie is the sum of those of several fine ties. The sweeps would not converge with it, so
+    // the factors of the ties are reduced.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);

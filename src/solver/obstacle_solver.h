@@ -11,8 +11,8 @@
 
 namespace relievo::solver {
 
-// Strengths of the forces on the field b. A tie pulls b towards zero, and up to `least_at_ties` if b is lower.
-// `order` has the strengths of the forces between pairs of nodes.
+// Strengths of the forces on the field b. A tie pulls b towards zero. Where b is below `least_at_ties`, the tie also
+// pulls b up to this value. `order` has the strengths of the forces between pairs of nodes.
 struct Springs {
   float tie_stiffness = 1;  // factor of the ties, >= 0
   // The least value of b at ties, below which a second force pulls b upwards.
@@ -52,7 +52,7 @@ class ObstacleSolver {
   // Data of one level. Each vector except at_ties has an element per node.
   struct Fields {
     std::vector<float> lowest, highest, load, hold, b;
-    std::vector<float> heights, lack;  // for pairs: the heights without b; scratch memory
+    std::vector<float> heights, lack;  // used for pairs only: the heights without b, and scratch memory
     std::vector<float> moment;         // bending times lap b
     std::vector<float> at_ties;        // per tie: the value of b there; then a 0 per tied node, see TiedNode
 

@@ -29,8 +29,8 @@ OrderPull::OrderPull(std::size_t width, const OrderedPairs& pairs) {
         const long x = n % columns + dx;
         const float share = pairs.share[n] * pairs.share[n + offset];
         if (x < 0 || x >= columns || share == 0) continue;
-        // tanh is computed in double precision, because standard libraries differ in its last bit in single
-        // precision.
+        // tanh is computed in double precision and then rounded, because the last bit of a single-precision tanh
+        // differs between standard libraries.
         direction.wanted[n] = share * static_cast<float>(std::tanh(static_cast<double>(
                                           (pairs.depth[n] - pairs.depth[n + offset]) / pairs.saturation)));
       }

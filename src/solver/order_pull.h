@@ -8,7 +8,7 @@
 
 namespace relievo::solver {
 
-// Pairs of nodes with the given distances, in cells, along rows, columns and both diagonals. The nearer node of a
+// Pairs of nodes at the distances `distances`, in cells, along rows, columns and both diagonals. The nearer node of a
 // pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation), times the shares of both
 // nodes.
 struct OrderedPairs {
@@ -34,9 +34,9 @@ class OrderPull {
   bool empty() const { return directions_.empty(); }
   std::size_t memory() const;
 
-  // Writes an upper bound of the energy, 1/2 sum hold b^2 - sum load b up to a constant, that equals the
-  // energy at b. `heights` are the heights without b; `lack` is scratch memory. All spans have an element per
-  // node.
+  // Writes `hold` and `load` so that, plus a constant, 1/2 sum hold x^2 - sum load x is an upper bound of the energy of
+  // a field x, and equals the energy at x = b. `heights` are the heights without the field; `lack` is scratch memory.
+  // All spans have an element per node.
   struct Bound {
     std::span<float> load, hold, lack;
   };
@@ -45,9 +45,9 @@ class OrderPull {
 
  private:
   struct Direction {
-    std::size_t offset;  // > 0; from the first node of a pair to the second
-    // For each first node, the wanted height above the second node, as a share of OrderLimits::height. It is 0 if a
-    // node is in no pair.
+    std::size_t offset;  // > 0; index of a pair's second node minus index of its first
+    // Per node: its wanted height above the second node of its pair, as a share of OrderLimits::height. It is 0 if the
+    // node is not the first one of a pair.
     std::vector<float> wanted;
   };
   std::vector<Direction> directions_;

@@ -69,8 +69,8 @@ struct Subtree {
 void substitute_forward(const Subtree& subtree);
 
 // Backward substitution: computes the elements of the subtree's columns by multiplying these and the elements of the
-// rows below by L^-T. Goes from the last supernode to the first. So `values` and `rows` of `end` must point to the
-// end of the last supernode's; `work` is the same as for the forward direction.
+// rows below by L^-T. Goes from the last supernode to the first. So end.values and end.rows must point behind the
+// values and rows of the last supernode. end.work is the same as for the forward direction.
 void substitute_backward(const Subtree& end);
 
 // Forward and backward substitution for a single supernode of any size whose rows are the whole work vector, in

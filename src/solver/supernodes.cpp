@@ -12,7 +12,7 @@ std::vector<Index> inverse(std::span<const Index> order) {
   return place;
 }
 
-// Returns the elimination tree: the parent of a column is the first row below its diagonal, including fill. Uses
+// Returns the elimination tree. The parent of a column is the row of the factor's first entry below the diagonal. Uses
 // Liu's algorithm (1990), with path compression in `ancestor`.
 std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> order,
                                     std::span<const Index> place) {
@@ -96,8 +96,8 @@ class Fundamental {
     column_parent_ = std::move(parent);
   }
 
-  // Returns whether column j has the same structure as the open supernode: the only child of j is the
-  // previous column, and all later neighbours of j are already rows of the supernode.
+  // Returns whether column j has the same structure as the open supernode. This is so if the only child of j is the
+  // previous column, and all neighbours of j that are eliminated later are already rows of the supernode.
   bool continues(Index j, std::span<const Index> place) const {
     if (j == 0 || column_parent_[j - 1] != j || children_[j] != 1) return false;
     const auto nearby = graph_.neighbours(order_[j]);
@@ -121,7 +121,8 @@ class Fundamental {
     result_.rows.push_back(row);
   }
 
-  // Begins a supernode at column j. Its rows are the later neighbours of j, and the rows of its children.
+  // Begins a supernode at column j. Its rows are the neighbours of j that are eliminated later, and the rows of its
+  // children.
   void open(Index j, std::span<const Index> place) {
     result_.parent.push_back(no_index);
     for (const Index u : graph_.neighbours(order_[j])) add_row(place[u], j);

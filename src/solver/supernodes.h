@@ -13,8 +13,8 @@ struct Supernodes {
   std::vector<Index> order;        // per column: the vertex that is eliminated there
   std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]
   std::vector<Index> parent;       // supernode that contains the first row below; no_index for a root
-  // The rows of supernode s below its own columns are rows[begin[s]] up to, but not including, rows[begin[s +
-  // 1]]: ascending column indices.
+  // The rows of supernode s below its own columns, as ascending column indices, are in rows[i] for
+  // begin[s] <= i < begin[s + 1].
   std::vector<std::size_t> begin = {0};
   std::vector<Index> rows;
 

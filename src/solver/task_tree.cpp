@@ -124,8 +124,8 @@ class TaskTreeBuilder {
 
   // Assigns to each task its parts of the shared arrays: boundary, work vector and values.
   void assign_storage() {
-    // All boundaries are found first, because the position of a row in the parent's work vector depends on
-    // the parent's boundary.
+    // All boundaries are found first, because the parent's boundary decides where a row is in the parent's work
+    // vector.
     for (Task& task : result_->tasks) find_boundary(task);
     for (Task& task : result_->tasks) {
       find_rows_in_parent(task);

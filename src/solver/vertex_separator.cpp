@@ -8,9 +8,9 @@ namespace relievo::solver {
 namespace {
 
 // Finds a maximum set of vertex-disjoint paths as a flow. Every vertex v is split into an entrance (state 2v)
-// and an exit (state 2v + 1), which are connected by an arc of capacity 1. Arcs between vertices are
-// unbounded, so that only vertices can be cut. The path through a used vertex v comes from previous_[v] and
-// continues to next_[v].
+// and an exit (state 2v + 1), which are connected by an arc of capacity 1. Arcs between vertices have unbounded
+// capacity, so that only vertices can be cut. The path through a used vertex v comes from previous_[v] and continues to
+// next_[v].
 class PathFlow {
  public:
   explicit PathFlow(const SeparatorBand& band)
@@ -44,8 +44,8 @@ class PathFlow {
     }
   }
 
-  // Returns the sides that follow from the final flow, after maximise(). Vertices whose exit can be reached are on
-  // the near side. If only the entrance can be reached, the vertex is saturated and belongs to the separator.
+  // Returns the side of each vertex. Must be called after maximise(). A vertex is on the near side if its exit can be
+  // reached in the residual network. If only its entrance can be reached, it belongs to the separator.
   std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
@@ -79,8 +79,8 @@ class PathFlow {
     return order;
   }
 
-  // Returns the first neighbour to try at the start of a walk, the leftmost turn: the next neighbour clockwise from
-  // the direction opposite to that of the band.
+  // Returns the position, in v's list, of the first neighbour to try at the start of a walk. This is the leftmost turn:
+  // the next neighbour clockwise from the direction opposite to that of the band.
   Index first_turn(Index v) const {
     const auto nearby = graph_.neighbours(v);
     Index best = 0;
@@ -89,8 +89,8 @@ class PathFlow {
       const Eigen::Vector2f step = band_.positions[nearby[i]] - band_.positions[v];
       const float x = -step.dot(band_.direction);
       const float y = step.x() * band_.direction.y() - step.y() * band_.direction.x();
-      // A number that increases clockwise to 4, from 0 in the backward direction (x = 1, y = 0). It replaces the
-      // angle, and needs no arc tangent.
+      // `angle` increases clockwise from 0, in the backward direction (x = 1, y = 0), to 4. It replaces the angle in
+      // comparisons, and needs no arc tangent.
       const float sum = std::abs(x) + std::abs(y), turn = sum > 0 ? x / sum : 1;
       const float angle = -y >= 0 ? 1 - turn : 3 + turn;
       if (angle < best_angle) best = i, best_angle = angle;
@@ -160,8 +160,8 @@ class PathFlow {
     return false;
   }
 
-  // Returns the state after the entrance of v: its exit if v is free; otherwise the previous vertex of the
-  // path that uses v, or no_index if that path begins at v.
+  // Returns the state after the entrance of v: the exit of v if no path uses v; otherwise the exit of the previous
+  // vertex of this path, or no_index if the path begins at v.
   Index inner_arc(Index v) const {
     if (!is_used_[v]) return 2 * v + 1;
     return previous_[v] == no_index ? no_index : 2 * previous_[v] + 1;

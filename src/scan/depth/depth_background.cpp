@@ -7,9 +7,9 @@
 namespace relievo {
 namespace {
 
-// A background covers at least `least_border` of the image's border, and at least `least_jumps` of its contacts with
-// the figure are depth jumps. If more than `most_missing` of the figure's contacts are with missing pixels, these
-// pixels are its background.
+// A contact is a pair of neighbouring pixels of different parts. A background covers at least the share `least_border`
+// of the image's border, and at least the share `least_jumps` of its contacts with the figure are depth jumps. If the
+// figure has more than the share `most_missing` of its contacts with missing pixels, these pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
 constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
@@ -43,9 +43,8 @@ class Parts {
     });
   }
 
-  // Returns the grid points of the parts that lie behind their neighbours and touch the image's border.
-  // Enclosed parts behind their neighbours are included if they are no nearer to the viewer than the largest
-  // of those parts.
+  // Returns the grid points of all rear parts. A part is rear if it lies behind its neighbours, and touches the
+  // image's border or is no nearer to the viewer than the largest of the rear parts at the border.
   GridMask rear() const {
     std::vector<std::uint8_t> is_rear(all_.size(), 0);
     float nearest = -std::numeric_limits<float>::infinity();
@@ -64,8 +63,8 @@ class Parts {
   }
 
  private:
-  // Only neighbours with similar heights belong to the same part. If the allowed slope grew along a path, a blurred
-  // outline would connect the figure with its background.
+  // Adds all connected points. Only neighbours with similar heights are connected, even if a steep step continues a
+  // steep slope. Otherwise a blurred outline, which is such a slope, would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -177,7 +176,7 @@ GridMask far_group(const DepthGrid& grid) {
   GridMask is_far(grid.height.size(), 0);
   const std::vector<float> heights = sorted_heights(grid, is_far, false);
   if (heights.size() < 16) return is_far;
-  // Finds the threshold by Otsu's method: the variance between the groups is largest, hence that within them least.
+  // Otsu's method: at the best threshold the variance between the groups is largest, so that within them is least.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());

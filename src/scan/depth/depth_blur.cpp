@@ -10,7 +10,7 @@ namespace relievo {
 namespace {
 
 constexpr float least_jump =
-    8;  // least height difference of two surfaces with blur between them, in distances of grid points
+    8;  // least height difference of two surfaces with blur between them, in widths of a grid cell
 
 // Returns whether a run of the steps from `first` to `last` contains a surface of its own: a step that is
 // small compared with the steps before and after it.
@@ -51,7 +51,7 @@ class BlurFinder {
       if (leaves(line, i, i - 1)) mark_run_from(line, i);
   }
 
-  // Marks the points of the shortest run that begins with the jump `first`.
+  // Marks the points of the shortest blurred run that begins with the jump at step `first`.
   void mark_run_from(const GridLine& line, int first) {
     float whole = line.step(first);
     for (int last = first + 1; last <= first + widest_ && line.step(last) * whole > 0; ++last) {

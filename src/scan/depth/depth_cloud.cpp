@@ -48,7 +48,8 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z) {
   return cloud;
 }
 
-// Counts the values that are not depths, and among these the values that could be depths.
+// Counts the values that are not depths as `missing`. A number among them that is possible as a depth is also counted
+// as `marked`; `marker` is the largest of these numbers.
 void count_missing(const DepthImage& image, const ValueRange& valid, DepthValues kind, DepthCloud& out) {
   for (const float v : image.values.pixels) {
     if (valid.contains(v)) continue;
@@ -67,7 +68,8 @@ bool is_background_sought(const DepthOptions& options) {
 
 // Returns the limits of the search for blur; nothing if blur is kept.
 std::optional<BlurLimits> blur_limits(const DepthGrid& grid, const DepthOptions& options) {
-  // The walls of shallow letters are not blur, so `narrow` requires a difference of a tenth of all depths.
+  // The walls of shallow letters look like narrow blur. So `narrow` requires a height difference of at least a tenth
+  // of the range of depths.
   constexpr BlurLimits narrow{3, .1F}, wide{12, 0};
   const bool is_kept = options.blur == Removal::automatic ? grid.is_terrain : options.blur == Removal::keep;
   if (is_kept) return std::nullopt;

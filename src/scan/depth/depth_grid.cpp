@@ -17,8 +17,8 @@ constexpr float steepest = 4;
 // noise of each is measured separately.
 constexpr std::size_t noise_bins = 8;
 
-// The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of 2 x
-// 2 blocks, which without noise is 0 on planes and nearly 0 on curved surfaces.
+// The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of the heights
+// in 2 x 2 blocks, which without noise is 0 on planes and nearly 0 on curved surfaces.
 struct Noise {
   std::array<float, noise_bins> limit;  // largest height of each bin
   std::array<float, noise_bins> sigma;
@@ -53,7 +53,8 @@ Noise measure_noise(const DepthGrid& grid) {
     noise.limit[bin] = (last - 1)->height;
     std::vector<float> sizes;
     for (auto it = first; it != last; ++it) sizes.push_back(it->twist);
-    // 1.4826 turns the median into a standard deviation, which for the sum of four heights is twice that of one.
+    // The factor 1.4826 turns the median into a standard deviation. A twist is the sum of four heights, so its
+    // deviation is twice that of one height.
     noise.sigma[bin] = 1.4826F * median(sizes) / 2;
   }
   return noise;
@@ -94,7 +95,7 @@ void allow_noise(DepthGrid& grid) {
 }
 
 // The mean of a square block of pixels, which becomes one grid point. Only pixels close to the median count,
-// so a block on an outline represents one of both sides instead of their mean.
+// so a block on an outline represents one of the two surfaces instead of their mean.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -136,7 +137,7 @@ bool GridMaker::counts(int x, int y, const GridMask& is_left_out) const {
                       static_cast<std::size_t>(c)];
 }
 
-// Returns the image with only the values that count; the others are missing.
+// Returns the image with only the values for which counts() is true; the others are missing.
 DepthImage GridMaker::counted(const GridMask& is_left_out) const {
   DepthImage image = image_;
   for (int y = 0; y < image.values.height; ++y)

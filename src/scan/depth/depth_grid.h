@@ -15,7 +15,7 @@ struct BoundedGrid {
   int width = 0, height = 0;
   std::vector<float> low, high;
   std::vector<std::uint8_t> is_known;
-  // Whether no depth jump separates the point from its right or lower neighbour.
+  // Per point: whether it is connected to its right or lower neighbour, so that no depth jump separates them.
   std::vector<std::uint8_t> joins_right, joins_down;
 
   std::size_t at(int column, int row) const {
@@ -37,7 +37,7 @@ struct DepthGrid {
   double noise = 0;
   // Whether the image is from a depth camera: its values have coarser steps than the file allows.
   bool is_sensor = false;
-  // Whether it is terrain: one surface, whose steepest parts are walls instead of depth jumps.
+  // Whether the image shows terrain, which is a single surface: its steepest parts are slopes, not depth jumps.
   bool is_terrain = false;
 
   // Returns whether two known neighbours belong to one surface: the slope between them is below 76 degrees,
@@ -55,9 +55,9 @@ class GridMaker {
   int reduction() const { return reduction_; }
   const ValueRange& valid() const { return valid_; }
 
-  // Returns the grid; its points are not connected yet. The bounds account for noise and for the step of the values.
-  // `is_left_out` is a mask of grid points, or empty. The points in the mask are in the grid, but do not count for
-  // the range of depths and for the step.
+  // Returns the grid; its points are not connected yet. The bounds account for noise and for the step between values.
+  // `is_left_out` is a mask of grid points, or empty. The grid contains the points in the mask, but the range of
+  // depths and the step are computed without them.
   DepthGrid make(const GridMask& is_left_out) const;
 
  private:
@@ -70,8 +70,7 @@ class GridMaker {
   int reduction_;
 };
 
-// A row or a column of a grid. Its points are numbered from 0 to size - 1; step i is between points i and i +
-// 1.
+// A row or a column of a grid. Its points are numbered from 0 to size - 1. Step i leads from point i to point i + 1.
 struct GridLine {
   const DepthGrid& grid;
   std::size_t first, stride;
@@ -103,13 +102,13 @@ void each_line(const DepthGrid& grid, F&& f) {
 void join(DepthGrid& grid);
 
 // Returns a mask of the background: the parts behind depth jumps all around the figure that cover most of the image's
-// border. Without strong evidence of a background the mask is empty or, if `is_wanted`, contains the points behind
-// the threshold that best separates two groups of depths, provided that the far group covers most of the border.
+// border. Without strong evidence of a background, the mask is empty unless `is_wanted`. Then a threshold separates
+// two groups of depths, and the mask contains the far group if this covers most of the border.
 GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
 struct BlurLimits {
   int widest = 0;         // largest number of adjacent blurred points
-  float least_share = 0;  // least height difference between the two surfaces, as a share of all depths
+  float least_share = 0;  // least height difference of the two surfaces, as a share of the range of depths
 };
 
 // Makes structures unknown that are thinner than 3 grid points, such as the thin teeth that depth cameras make along

@@ -36,8 +36,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
       if (known == 0) continue;
       half.low[i] /= known, half.high[i] /= known;
       half.is_known[i] = 1;
-      // Two coarse points are connected only if both pairs of fine neighbours between them are connected, so
-      // that no grid smooths a jump.
+      // Two coarse points are connected only if both pairs of fine neighbours between them are connected. So no
+      // grid smooths across a jump.
       half.joins_right[i] = joins(fine.joins_right, 2 * c + 1, 2 * r) &&
                             (2 * r + 1 >= fine.height || joins(fine.joins_right, 2 * c + 1, 2 * r + 1));
       half.joins_down[i] = joins(fine.joins_down, 2 * c, 2 * r + 1) &&

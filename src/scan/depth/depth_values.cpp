@@ -15,11 +15,11 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // would be unlimited. So smaller values are raised to this share, and no depth exceeds 20 times the smallest
 // depth.
 constexpr double farthest_inverse = .05;
-// Depths (as floating-point numbers) that are more than this many times the nearest ones are not depths.
-// Renderers write values such as 1e10 where a ray hits nothing, and mix them with depths along outlines.
+// In files of floating-point numbers, values above this multiple of the nearest depths are not depths. Renderers
+// write values such as 1e10 where a ray hits nothing, and mix them with depths along outlines.
 constexpr double farthest_depth = 1e5;
-// The highest depth counts as a marker if its distance from all other depths is this many times their range. A
-// smaller distance suffices if it is the largest value of its type.
+// The highest value marks missing depths if its distance from all other values is this many times their range. A
+// smaller distance suffices if the highest value is the largest number of an integer type.
 constexpr double widest_gap = 100;
 
 struct Extremes {
@@ -42,7 +42,7 @@ Extremes extremes_of(const DepthImage& image, const ValueRange& valid) {
   return found;
 }
 
-// Returns whether `v` is the largest value of an integer type with 8 to 32 bits, signed or unsigned.
+// Returns whether `v` is, rounded to a float, the largest number of a usual integer type of 8 to 32 bits.
 bool is_largest_of_type(double v) {
   constexpr std::array largest = {255., 4095., 32767., 65535., 2147483648., 4294967296.};
   return std::ranges::find(largest, v) != largest.end();
@@ -75,8 +75,8 @@ double share_of_border(const Image<float>& values, double value) {
 bool is_marker(const Extremes& it, const DepthImage& image, DepthValues kind) {
   const double range = it.range_below_highest(), gap = it.gap_below_highest();
   if (!(range > 0)) return false;
-  // An inverse depth this high is the nearest one. But nothing that is nearest surrounds everything else at
-  // one constant depth, so such a value is a marker.
+  // The highest inverse depth is that of the nearest surface. No nearest surface surrounds all others at one constant
+  // depth, so a highest value along most of the border is a marker.
   const bool is_around =
       kind == DepthValues::inverse && gap > .1 * range && share_of_border(image.values, it.highest) > .5;
   if (is_largest_of_type(it.highest) && (gap > range || is_around)) return true;
@@ -123,9 +123,9 @@ HeightScale::HeightScale(const DepthImage& image, const DepthOptions& options, c
   if (options.values == DepthValues::depth) scale_ = -scale_;
 }
 
-// The uncertainty of a depth camera's values, in distances between neighbouring values of the image. Such
-// cameras write millimetres, but at large depths use only about every tenth value. Noise decides which of the
-// two nearest values is used, so the uncertainty exceeds half of their distance.
+// The uncertainty of a depth camera's values. The unit is the distance between neighbouring values that occur in the
+// image. Such cameras write millimetres, but at large depths use only about every tenth value. Noise decides which of
+// the two nearest values is written, so the uncertainty exceeds half of their distance.
 constexpr double sensor_steps = 1.5;
 
 ValueSteps::ValueSteps(const DepthImage& image) : least_(image.step / 2) {

@@ -17,16 +17,17 @@ struct ValueRange {
   static ValueRange none();  // empty; extend() makes it the range of one value
 };
 
-// Returns the range of the values that are depths. Values outside mark pixels without measurement or without object:
-// 0 or less in depths, the largest value of the file's type, the value with which a renderer marks pixels without
-// object, or the usual markers of terrain models. The latter three are recognised only if a wide gap separates them
-// from all other values.
+// Returns the range of the values that are depths. Values outside this range mark pixels without measurement or
+// without object: 0 or less in depths, the largest value of the file's type, the value with which a renderer marks
+// pixels without object, or the usual markers of terrain models. The latter three are recognised only if a wide gap
+// separates them from all other values.
 ValueRange valid_values(const DepthImage& image, DepthValues kind);
 
 // Converts values into heights towards the viewer, in pixels of the image.
 class HeightScale {
  public:
-  // Without a camera, options.range is the height difference between the ends of `range`, in widths of the image.
+  // Without a camera, options.range is the height difference between the ends of `range`, as a multiple of the
+  // image's longer side.
   HeightScale(const DepthImage& image, const DepthOptions& options, const ValueRange& range);
 
   // Returns the ratio of heights to values, like Cloud::units_per_value, but in pixels of the image.
@@ -38,8 +39,8 @@ class HeightScale {
   double scale_ = 1, floor_ = 0;
 };
 
-// Estimates the uncertainty of values from the steps between them. The uncertainty is at least half the step of the
-// file's number format.
+// Estimates the uncertainty of values from the steps between the values that occur. The uncertainty is at least half
+// the step of the file's number format.
 class ValueSteps {
  public:
   explicit ValueSteps(const DepthImage& image);

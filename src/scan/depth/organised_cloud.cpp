@@ -48,8 +48,8 @@ std::vector<Pixel> some_pixels(const OrganisedCloud& scan) {
   return pixels;
 }
 
-// Returns the camera whose rays fit the pixels' points best: the sum of squares of the components of the rays
-// perpendicular to the directions of their points is least. Returns nothing if the rays span no picture.
+// Returns the camera whose rays fit the pixels' points best. Each ray has a component perpendicular to the direction
+// of its point, and the sum of the squares of these components is least. Returns nothing if the rays span no picture.
 std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, double scale) {
   using Unknowns = Eigen::Matrix<double, 9, 9>;
   Unknowns squares = Unknowns::Zero();
@@ -73,8 +73,8 @@ std::optional<OrganisedCamera> nearest_camera(const std::vector<Pixel>& pixels, 
   return camera;
 }
 
-// If the camera looks almost exactly along an axis of the file, makes `forward` this axis, because only the
-// coordinates along it are exact depths.
+// If the camera looks almost exactly along an axis of the file, makes `forward` this axis, because the file has exact
+// depths only along its axes.
 void snap_to_axis(OrganisedCamera& camera) {
   constexpr double slant = 2e-3;
   Eigen::Index axis = 0;
@@ -101,8 +101,8 @@ std::optional<OrganisedCamera> find_camera(const OrganisedCloud& scan) {
   return camera;
 }
 
-// Returns the step of a camera's depths: the least difference between two values, if each value occurs many times;
-// otherwise 0.
+// Returns the step of a camera's depths: the least difference between two values. Returns 0 if values occur so rarely
+// that the differences are due to chance.
 double step_of(const std::vector<float>& values) {
   constexpr std::size_t least_pixels_per_value = 32;
   constexpr float rounding = 1e-6F;

@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// The points of a camera at the origin, which are the pixels of a picture, row by row. Pixels without a depth are
-// not finite or at the origin.
+// The points that a camera at the origin has measured, one per pixel of its picture, row by row. The point of a pixel
+// without a depth is not finite, or lies at the origin.
 struct OrganisedCloud {
   Cloud cloud;
   std::size_t columns = 0;

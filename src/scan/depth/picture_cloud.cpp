@@ -27,8 +27,8 @@ Image<float> reduced(const Image<float>& values, double points) {
   return means;
 }
 
-// Adds points half a pixel outside the outermost pixels, so that the cloud has the full width of the picture.
-// The outermost pixels then keep their brightness, because a lithophane is dark along its outline.
+// Adds points half a pixel outside the outermost pixels, so that the cloud has the full width of the picture. A
+// lithophane is dark along its outline; without these points the outermost pixels would be dark.
 void add_frame(const Image<float>& values, Cloud& cloud) {
   const double x = values.width / 2.0, y = values.height / 2.0;
   const auto add = [&](double at_x, double at_y) { cloud.points.emplace_back(at_x, at_y, 0); };

@@ -29,18 +29,18 @@ struct PointGroup {
 
 constexpr std::size_t most_repeats = 64;    // most points that are searched for repeats of one point
 constexpr std::size_t points_judged = 400;  // number of tested points, evenly distributed over the cloud
-// By chance, this share of randomly scattered points also has a gap as wide as the gap around repeats.
+// A gap in the distances around a point is wide if it is so by chance for only this share of scattered points.
 constexpr double gap_by_chance = .002;
-// Marching cubes places two or three vertices close together that do not repeat each other. At a fifth of
-// such positions these vertices are nearer to each other than a tenth of the distance to other vertices, at a
-// fiftieth nearer than a hundredth.
+// Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth of such
+// positions their distance from each other is less than a tenth of that to other vertices, at a fiftieth less than a
+// hundredth.
 constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
-constexpr double least_sure = .05,
-                 least_near = .4;  // least shares of tested points with a sure or near gap
-// Points are merged within three times the distance that three quarters of the repeats do not exceed, but at
-// most within a quarter of the distance to other points. The last quarter of the repeats is ignored, because
-// it may contain gaps by chance around points of several positions.
+// A cloud has repeats if at least this share of the tested points has a sure gap, or a near one.
+constexpr double least_sure = .05, least_near = .4;
+// Points are merged within three times the third quartile of the distances between repeats, but at most within a
+// quarter of the distance to other points. The largest quarter of the distances is ignored, because some of these
+// gaps are due to chance and surround points of several positions.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to its farthest repeat, and to the nearest point that is not a repeat.
@@ -49,9 +49,9 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap in the distances to the nearest points. Later gaps may be due to chance, because among
-// repeats a search finds many points at few positions. Of points scattered on a surface, the m-th nearest is closer
-// than s times the distance to the next one with probability s^(2 m).
+// Returns the first wide gap in the ascending distances to the nearest points. Later gaps may be due to chance: where
+// points are repeated, the search finds many points at few positions. If points are scattered on a surface, the m-th
+// nearest is closer than s times the distance to the next one with probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -108,7 +108,7 @@ class Merging {
       has_one_normal = has_one_normal && (!cloud_.has_normals() || cloud_.normals[i] == cloud_.normals[j]);
     }
     to_.points.push_back(cloud_.points[i]);
-    // Equal normals are kept, because their mean would differ from them by rounding.
+    // If all normals are equal, the first one is copied, because their mean would differ from it by rounding.
     if (cloud_.has_normals())
       to_.normals.push_back(has_one_normal ? cloud_.normals[i] : group.normal.normalized());
     if (cloud_.has_colours()) to_.colours.push_back(group.mean_colour());

@@ -19,7 +19,7 @@ constexpr std::size_t fewest_places = 100;
 constexpr std::size_t most_members = 1 + spacing_neighbours + spacing_neighbours * spacing_neighbours;
 // The noise is this quantile of the local scatters, divided by `quiet_deviation`, the ratio of the quantile to the
 // standard deviation. The ratio is sqrt(q / 15), where q is the same quantile of a chi-square distribution with 15
-// degrees of freedom. A fit leaves about so many.
+// degrees of freedom. About 15 degrees of freedom are left after the fit in scatter_around().
 constexpr double quiet_share = .25, quiet_deviation = .86;
 constexpr double least_noise = .12;  // in rho; clean scans with fine details scatter up to this much
 // Noise of one sampling distance makes estimated normals scatter by at least this much. It was measured for normals

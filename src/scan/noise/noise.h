@@ -30,7 +30,7 @@ struct NoiseRemoval {
 // and the normals of these surfaces. More noise averages over wider neighbourhoods, and rounds sharper creases.
 // Normals are fitted by linear functions in the tangent plane. Neighbours that deviate from the last fit, such
 // as those beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross, "Feature preserving point
-// set surfaces based on non-linear kernel regression", 2009; that fit is constant, which flattens curved parts.
+// set surfaces based on non-linear kernel regression", 2009; they fit constant normals, which flattens curved parts.
 // The cloud must have normals, and its rho be greater than 0. The result is not usable once the progress is
 // cancelled.
 CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);

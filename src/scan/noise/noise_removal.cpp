@@ -22,7 +22,7 @@ constexpr double least_radius = 2, more_radius = 3;  // radius = spacing (2 + 3 
 constexpr double least_deviation = to_radians(8),
                  more_deviation = to_radians(30);  // normals: the greater of 8 degrees and 30 degrees * noise
 constexpr float facing = .2F;  // least cosine between the normals of neighbours on the same side of a wall
-constexpr double stiffness = .01;  // keeps the fitted normals almost constant if the neighbours are collinear
+constexpr double stiffness = .01;  // keeps the fit regular if the neighbours are collinear
 constexpr std::size_t lanes = 8;
 
 // Eight vectors: positions in units of the radius, or unit normals.
@@ -47,8 +47,8 @@ struct Frame {
   }
 };
 
-// Weighted sums over the neighbours: of 1, u and v and their products, of 1, u and v times p and q, and of the
-// heights. u and v are coordinates in the tangent plane, p and q the slopes of the normals.
+// Weighted sums over the neighbours. u and v are their coordinates in the tangent plane, p and q the slopes of their
+// normals. The names list the factors that are summed; `height` sums the predicted heights of the surface.
 struct Sums {
   Float8 w = {}, wu = {}, wv = {}, wuu = {}, wuv = {}, wvv = {};
   Float8 p = {}, pu = {}, pv = {}, q = {}, qu = {}, qv = {};
@@ -66,14 +66,14 @@ struct LocalSurface {
   }
 };
 
-// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2). Each factor is 1 /
-// (2 variance).
+// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2).
+// Each factor is 1 / (2 variance).
 struct Tolerances {
   float normals;  // the factor for the deviation of normals
   float heights;  // the factor for the deviation of heights, which is in units of the radius
 };
 
-// Returns exp(x) for x <= 0 with seven digits; 0 below -80.
+// Returns exp(x) for x <= 0 with seven digits; below -80, returns exp(-80), about 2e-35.
 RELIEVO_INLINE Float8 exponential(const Float8& x) {
   constexpr float digits_end = 12582912;  // 1.5 * 2^23; adding it rounds a small number to an integer
   Float8 result;
@@ -96,7 +96,8 @@ RELIEVO_INLINE Sums sums_of(std::span<const Neighbours> neighbours, const Frame&
   Sums s;
   for (const Neighbours& each : neighbours) {
     const Eight d = frame.turned(each.place), n = frame.turned(each.normal);
-    // The mean of both normals makes this height exact on spheres, too.
+    // The height of the surface at the point, predicted by a neighbour. It assumes that the chord between the two is
+    // perpendicular to the mean of their normals, which is exact on spheres, too.
     const Float8 up = (d.x * n.x + d.y * n.y + d.z * (n.z + 1)) * .5F, off = up - height;
     const Float8 inside = 1 - (d.x * d.x + d.y * d.y + d.z * d.z);
     const auto counts = (n.z > facing) & (inside > 0);
@@ -220,7 +221,7 @@ std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f
                                      const Spacing& spacing) {
   constexpr float least_facing =
       -.1F;  // cosine of 96 degrees; removing noise turns few points beyond this to the viewer
-  constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature
+  constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature do
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)
     if (normals[i].dot(towards_viewer) > least_facing) level[i] = rings + 1;

@@ -13,12 +13,12 @@ constexpr double grid_cell = 1.5;
 constexpr double most_distant = 1.5;   // largest distance of the exact outline from the sampled one
 constexpr double node_spacing = .25;   // distance between nodes; small, because nodes are exact
 constexpr double curve_spacing = .75;  // distance between points of the fair curve
-// Half the length of the curve that each point is fitted to. It is long enough to bridge gaps at turns of the
-// sampled outline, where the exact outline has another direction.
+// Half the length of the part of the curve to which each point is fitted. At turns of the sampled outline, where the
+// exact outline has another direction, nodes are missing; the part is long enough to bridge these gaps.
 constexpr double exact_window = 1;
 // Largest distance by which a point of the curve is moved onto the exact outline.
 constexpr double most_moved = .5;
-constexpr double least_spacing = .2;  // distance between points of the curve after they are moved
+constexpr double least_spacing = .2;  // between moved points of the curve; closer ones are left out
 // The least length of an edge across a gap. Samples of a surface without gaps are closer together, even
 // diagonally across their grid.
 constexpr double least_gap = 1.7;

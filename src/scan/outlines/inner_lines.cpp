@@ -31,12 +31,12 @@ struct Change {
   double left_over = 1;  // misfit of the fits of both sides, as a share of the misfit of one common fit
   // Scatter around the means of both sides, as a share of the scatter around the common mean.
   double scatter = 1;
-  double angle_deg = 0;  // between the fitted normals of both sides
+  double angle_deg = 0;  // angle between the fitted normals of both sides
   // Depth of the left side minus depth of the right side, in rho; positive if the left side is in front.
   double step = 0;
 };
 
-// The limits that the change of a surface must satisfy at the start of a line and where a line goes on.
+// The limits that the change of a surface must satisfy at the start of a line, or farther on along it.
 struct Limits {
   double left_over, angle_deg, step;
 
@@ -151,8 +151,8 @@ class ChangeFinder {
     double scatter() const { return around_mean + of_depths(); }
   };
 
-  // Weighted sums of 1, x and y and their products, and of 1, x and y times the normals. Each entry sums every fourth
-  // sample.
+  // Weighted sums over the samples. The names list the factors that are summed: coordinates x and y, and components of
+  // the normals. Each of the four entries sums every fourth sample.
   struct FourSums {
     Double4 w = {}, x = {}, y = {}, xx = {}, xy = {}, yy = {};
     Double4 n_x = {}, n_y = {}, n_z = {}, x_n_x = {}, x_n_y = {}, x_n_z = {}, y_n_x = {}, y_n_y = {},
@@ -185,7 +185,8 @@ class ChangeFinder {
     of_right.put_into(right);
   }
 
-  // Weighted sums of the depths of one part, in rho, and of their squares. Each entry sums every fourth sample.
+  // Weighted sums of the depths of one part, in rho, and of their squares. Each of the four entries sums every fourth
+  // sample.
   struct FourDepths {
     Double4 sum = {}, squares = {};
 
@@ -381,7 +382,7 @@ class LineFinder {
   ChangeFinder finder_;
   double rho_;
   SegmentGrid grid_;         // the outlines given to the constructor
-  PointSet lines_, starts_;  // positions of new lines; positions where lines were sought
+  PointSet lines_, starts_;  // lines_: positions of new lines; starts_: positions where lines were sought
 };
 
 }  // namespace

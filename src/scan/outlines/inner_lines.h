@@ -9,7 +9,7 @@
 namespace relievo {
 
 // Adds inner lines to the outlines of a surface, as jumps with the higher side on the left. Jumps that end inside the
-// surface are continued as long as the surface bends or steps. Lines keep a distance of 0.8 rho from other outlines.
+// surface are continued as long as the surface bends or steps. Lines keep a distance of 2 rho from other outlines.
 // New lines shorter than 8 rho are left out.
 void add_inner_lines(const Surface& surface, const PlanePoints& plane, std::vector<OutlineCurve>& outlines);
 

@@ -7,9 +7,9 @@
 
 namespace relievo {
 
-// Joins open jumps if one ends at most 4 rho before another one begins and both lead across the gap. Such gaps occur
-// where the step in depth is close to the least step of a jump; the surface would be torn there. Silhouettes and
-// closed jumps stay as they are.
+// Joins two open jumps if one ends at most 4 rho before the other begins and both have the direction of the gap. Such
+// gaps occur where the step in depth is close to the least step of a jump. Silhouettes and closed jumps stay as they
+// are.
 void join_jumps(std::vector<OutlineCurve>& outlines, double rho);
 
 }  // namespace relievo

@@ -110,7 +110,8 @@ class DepthLookup {
     return static_cast<int>(std::clamp(std::floor(offset / cell_), 0.0, count - 1.0));
   }
 
-  // Calls f for the cells of each row, from the leftmost to the rightmost part of the triangle in that row.
+  // Calls f for the cells over which the triangle lies. In each row these are the cells from the leftmost to the
+  // rightmost part of the triangle in that row.
   template <typename F>
   void each_cell(const Triangle& t, F&& f) const {
     std::array<Vec2, 3> p;

@@ -22,7 +22,7 @@ namespace {
 // Lengths in rho, the sampling distance.
 constexpr double rows_end = 3.2;         // only points nearer than this to an outline are replaced
 constexpr double replaced_within = .65;  // least distance between kept points and points of rows
-constexpr double widest_gap = 1.6;       // radius of the largest empty circle inside the surface
+constexpr double widest_gap = 1.6;       // radius; points are added where an empty circle is larger
 constexpr double sliver_width = .02;
 constexpr double widest_sample = 1.9;  // radius of the largest gap that a single point at its centre fills
 // Cell size of the set of new points; also the least distance between points in gaps.
@@ -169,8 +169,8 @@ class NewSurface {
     }
   }
 
-  // Sets which triangles are inside. Only a triangle with a corner on the silhouette or with a long edge may be
-  // outside: it is inside if its centre is inside the silhouette.
+  // Sets which triangles are inside. A triangle with a corner on the silhouette or with a long edge is inside if its
+  // centre is inside the silhouette. All others are inside, apart from crumbs.
   void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
                     const std::vector<Place>& places) const {
     Boundary& boundary = surface.boundary;
@@ -227,8 +227,8 @@ class NewSurface {
   std::vector<Place> places_;
 };
 
-// The least length of (n_x, n_y) of normals where a surface turns away from the viewer; as least_lean in
-// outlines.cpp.
+// The least length of (n_x, n_y) of normals where a surface turns away from the viewer. least_lean in outlines.cpp has
+// the same value.
 constexpr double least_turned = .75;
 
 // Returns whether there is a depth jump between two points and the surface behind ends there, with a normal

@@ -16,8 +16,8 @@ namespace relievo {
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
 
-// Marks triangles in notches as outside, from the silhouette inwards. A notch is a gap between a surface and another
-// one behind it that turns away from the viewer there, so no surface is visible between the two.
+// Marks triangles in notches as outside, from the silhouette inwards. A notch is a gap between two surfaces, where the
+// one behind turns away from the viewer. So no surface is visible in the gap.
 void open_notches(Surface& surface);
 
 }  // namespace relievo

@@ -17,14 +17,14 @@ namespace {
 
 // Lengths and areas in rho and rho^2; rho is the sampling distance.
 constexpr double least_piece = 20, hole_area = 4;
-// Jumps get a wider window than silhouettes because they scatter more: where one of two surfaces ends is known to one
-// rho at best.
+// Jumps get a wider window than silhouettes because their nodes scatter more: the position where the front surface
+// ends has an error of one rho or more.
 constexpr double point_spacing = .75, fair_window = 3, jump_window = 6;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
 // The least weight of a node. Nodes whose positions the normals do not determine have this weight.
 constexpr double uncertain = .03;
-// The error, in rho, at which an estimated position on an outline has half of the full weight.
+// If the estimated error of a node's position has this size, in rho, the node has half of the full weight.
 constexpr double trusted_error = .25;
 // The least length of (n_x, n_y) at which normals determine where the surface ends.
 constexpr double least_lean = .75;
@@ -262,7 +262,7 @@ class JumpLines {
   const Surface& surface_;
   const ExactOutlines& exact_;
   Sides sides_;
-  std::vector<Index> next_, previous_;  // per edge; no_index if there is none
+  std::vector<Index> next_, previous_;  // per edge: the next and previous edge of its line; no_index for none
 };
 
 }  // namespace

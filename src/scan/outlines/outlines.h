@@ -36,13 +36,13 @@ class ExactOutlines {
   }
 
  private:
-  // Adds the nodes on exact outlines nearest to the positions from places[i] to the next one. Returns whether
-  // places[i] itself has a node.
+  // For positions from places[i] to the next place, adds the nearest nodes on exact outlines. Returns whether places[i]
+  // itself has a node.
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest position on an exact outline with about this direction. A silhouette in the samples
-  // may be an exact jump, if too little of the surface behind the jump is visible.
+  // Returns the nearest position on an exact outline of this kind with about this direction. If no exact silhouette is
+  // near, a jump replaces it: where little of the surface behind a jump is visible, samples show a silhouette.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;
@@ -58,8 +58,8 @@ struct OutlineCurve {
   bool is_crease = false;  // a jump without a step: the surface only bends there
 };
 
-// Returns the options for curves of jumps: smoothness and distance between points. Creases get points as far apart as
-// those of scans, because only steps need closer ones.
+// Returns the options for curves of jumps: smoothness and distance between points. The points of creases are about as
+// far apart as those of scans, because only steps need closer points.
 FairCurveOptions jump_curve_options(double rho, bool is_crease = false);
 
 // The distance between the points of a crease, in rho.
@@ -80,9 +80,9 @@ struct PlanePoints {
 bool is_occlusion(const Surface& surface, Index a, Index b);
 
 // Marks small connected parts of the surface (crumbs) as outside, and holes of less than 4 rho^2 as inside. Adds the
-// number of removed parts to surface.crumbs. Crumbs have less than 0.5 % of the surface's area. If the view shows
-// crumbs, only parts of less than 20 rho^2 are removed, which are too small for an outline. If the view limits the
-// number of parts, only the largest are kept. Returns whether any triangle is still inside.
+// number of removed parts to surface.crumbs. Crumbs have less than 0.5 % of the surface's area. If View::has_crumbs is
+// set, only parts of less than 20 rho^2 are removed, which are too small for an outline. If View::most_pieces is set,
+// at most so many parts are kept, the largest ones. Returns whether any triangle is still inside.
 bool drop_crumbs(Surface& surface);
 
 // Returns the silhouettes, which are closed, then the depth jumps. The surface's triangulation must have

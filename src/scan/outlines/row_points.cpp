@@ -17,7 +17,7 @@ constexpr std::array row_distance = {half_wall, .45, 1.0, 1.6, 2.25, last_row};
 // Least distances between points of rows, in rho. They are smaller on outlines and in the row next to an
 // outline.
 constexpr double least_between_rows = .4, least_in_first_row = .28, least_on_outlines = .12;
-// The least distance of a wall from another outline, in rho. Walls end before they reach one.
+// The least distance of a wall from another outline, in rho. Walls end before they reach another outline.
 constexpr double least_from_other_outline = .35;
 
 // Makes the points of all rows, from the rows nearest to the outlines outwards.
@@ -40,8 +40,8 @@ class RowMaker {
   }
 
  private:
-  // Returns a vector to the left of an outline at one of its points. It has unit length, except that at
-  // corners it is longer, so that a parallel curve through its end has distance 1.
+  // Returns a vector to the left of an outline at one of its points. It has unit length, but is longer where the
+  // outline turns, so that a parallel curve through its end has distance 1.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
@@ -65,9 +65,9 @@ class RowMaker {
     }
   }
 
-  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Odd rows have their points
-  // between the points of even rows. The first row, at a wall, has both kinds of points. Then the long sides
-  // of the wall are edges of the Delaunay triangulation.
+  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Odd rows have their points beside the
+  // midpoints of the curve's edges, even rows beside its points. Row 0, at a wall, has both. Then the long sides of
+  // the wall are edges of the Delaunay triangulation.
   void add_row(Index c, std::size_t row, double side) {
     const OutlineCurve& outline = outlines_[c];
     const std::size_t n = outline.curve.points.size();
@@ -162,8 +162,8 @@ std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowP
   return values;
 }
 
-// Returns the values at a new point. `matches` has the points within the radius of a fit; if too few of them can be
-// used, points farther away are added.
+// Returns the values at a new point. around.matches has the points within the radius of a fit. If too few of them can
+// be used, points farther away are added.
 SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around) const {
   double radius = fit_radius * surface_.rho;
   std::vector<Match>& matches = around.matches;
@@ -172,8 +172,8 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around
     tree_.within(p.at, radius *= 1.6, matches);
     leave_same_side(p, radius, around);
   }
-  // In a sliver between two outlines all points may be on these outlines. Then points of the silhouette are
-  // interpolated from them. Without a silhouette, long triangles would cross the sliver.
+  // In a sliver between two outlines all points may be on these outlines. Then a new point of the silhouette is
+  // interpolated from them. If it were left out, long triangles would cross the sliver.
   if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {

@@ -44,12 +44,12 @@ inline Vec3 normal_with(Vec2 lean) {
 
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points on the
 // silhouette come first, then points on both sides of each jump, then parallel rows in the order of their distance
-// from the outline. A point is left out if another outline is nearer to it than its own or separates it from its own,
-// or if a point of an earlier row is too close.
+// from the outline. A point is left out if another outline is nearer to it than its own outline, or lies between the
+// two, or if a point of an earlier row is too close.
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
-// Values at the surface's points that only the stages up to the boundary use.
+// Values at the surface's points that are not needed any more once the boundary is found.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature; 0 at hole-fill points
   std::vector<float> spacing;  // Spacing::local for clouds of uneven density, else empty

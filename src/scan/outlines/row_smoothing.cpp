@@ -17,7 +17,7 @@ using Numbers = Double4;  // depth in rho, n_x, n_y, curvature
 constexpr double window = 3;                            // largest distance of samples, in rho
 constexpr double trusted_depth = 1, trusted_lean = .2;  // misfits at which a sample's weight is halved
 constexpr double stiffness = .001;                      // keeps fits to few points regular
-constexpr double other_face = .35;  // least difference of (n_x, n_y) between the two faces at a crease
+constexpr double other_face = .35;  // least distance between the (n_x, n_y) of the two faces at a crease
 constexpr int passes = 3;
 
 class RowSmoother {

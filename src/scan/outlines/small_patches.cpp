@@ -20,8 +20,8 @@ constexpr double least_behind = .7;  // share of the jumps around a patch at whi
 // The longest edge that connects points, in rho (sampling distances). Longer edges cross regions without points.
 constexpr double connection_length = 3;
 
-// The number of jumps and gaps between points of a patch and other points, and how many of them have the
-// patch behind.
+// `jumps` counts the jumps and gaps between points of a patch and other points. `behind` counts those of them at which
+// the patch is behind.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };

@@ -28,8 +28,8 @@ class CellChoice {
         hole_reach_(
             static_cast<int>(std::ceil(float{ScanLimits::hole_fill_distance} * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    // Shifted rows give nearly equilateral triangles. With two columns and one row, cells are chosen like the
-    // black fields of a chessboard.
+    // Shifted rows give nearly equilateral triangles. If columns_ is 2 and rows_ is 1, cells are chosen like the black
+    // fields of a chessboard.
     const int least = cells > std::numbers::sqrt2 ? 2 : 1;
     columns_ = std::max(least, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
