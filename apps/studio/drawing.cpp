@@ -66,11 +66,14 @@ double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
 
+bool is_flat(const ReliefOptions& options) {
+  return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
+}
+
 // Returns whether FrameRenderer can draw the piece while only its heights change. It leaves out ornaments and what
 // takes long to compute: the draft angle, the simplification, and the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
-  const bool is_flat = options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
-  return (is_flat || options.outline != Outline::none) && options.form != Form::lithophane &&
+  return (is_flat(options) || options.outline != Outline::none) && options.form != Form::lithophane &&
          !options.mm_per_value;
 }
 
@@ -80,7 +83,7 @@ bool is_plain(const ReliefOptions& options) {
   const bool frame_shows_all =
       !options.draft_deg && !options.tolerance_mm && !options.triangles && !options.tool;
   return is_frame_on_plate(options) && is_plate && frame_shows_all && options.form == Form::relief &&
-         options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
+         is_flat(options);
 }
 
 ReliefOptions coarse(ReliefOptions options) {
@@ -95,9 +98,8 @@ ReliefOptions coarse(ReliefOptions options) {
 // Returns whether the thickness of the piece, coarse or finished, is exactly that of the plate plus the height of the
 // relief.
 bool is_level(const ReliefOptions& options) {
-  return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
-         options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
-         options.finish == Finish::full;
+  return is_flat(options) && options.form != Form::die && !options.rim_mm &&
+         options.outline != Outline::none && options.finish == Finish::full;
 }
 
 ReliefOptions without_ornaments(ReliefOptions options) {
@@ -219,7 +221,6 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                 live_.draw_on_plate(limited, without_ornaments(request.options), render, answer.picture,
                                     request.progress.get()));
     answer.size_mm = placed.size_mm;
-    if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
     if (request.options.wrap.kind == WrapKind::none)
       answer.relief_mm = {placed.middle_mm - half, placed.middle_mm + half};
     return {};
@@ -229,7 +230,7 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
   else
     live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
   const Vec2 plate = 2 * half + Vec2::Constant(2 * render.margin_mm);
-  answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
+  answer.size_mm.head<2>() = plate;
   answer.relief_mm = {-half, half};
   return {};
 }
@@ -253,11 +254,11 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
     piece->renderer.render(render, answer.picture, request.progress.get());
     if (request.options.mm_per_value) answer.height_mm = piece->height_mm.value_or(answer.height_mm);
     answer.size_mm = Box::of(piece->solid->points).size();
-    if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
     answer.relief_height_mm = piece->height_mm.value_or(answer.height_mm);
     answer.relief_mm = relief_in(*piece->solid, request.options);
     if (piece->reach) answer.reach = {piece->reach->reached_share, piece->reach->largest_residual_mm};
   }
+  if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
   RELIEVO_CHECK(check_cancelled(request.progress.get()));
   answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
@@ -285,7 +286,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
     return answer;
   }
   // The height of a piece is taken from the frame, so the frame's height must then be exact.
-  const LiveFrame made = this->frame(request, options.is_fine || !is_frame_on_plate(request.options));
+  const LiveFrame made = this->frame(request, request.is_at_rest || !is_frame_on_plate(request.options));
   const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;
   const PieceHeight height = height_of(request, made);

@@ -46,6 +46,7 @@ struct PictureRequest {
   std::optional<View> turned;   // the view while the user turns the model; empty: the prepared view
   std::optional<double> u;      // strength of the compression; empty if the height is given
   bool is_original = false;     // draw the model itself instead of its relief
+  bool is_at_rest = false;      // the user pauses: the height is exact, and a newer request cancels this one
   bool is_finished = false;     // draw the piece exactly as it is exported
   bool has_attention = false;   // colour the model itself by its attention, see attention()
   bool is_drawn_apart = false;  // return a frame without drawing it, see PictureAnswer::undrawn
@@ -130,13 +131,11 @@ class Drawing {
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
   // Draws the model itself if the request asks for it, otherwise the relief or its piece.
-  // If the options ask for a plate with ground on a plane base, without a draft angle, simplification or a tool,
-  // draws a frame. Its height is exact in fine pictures, and within 3 % of the requested height in others. If take()
-  // has received the finished piece, that piece is drawn instead for plates other than plain rectangles and for
-  // requests for the finished piece.
-  // For other options always draws a piece of exactly the requested height: the finished piece if take() has received
-  // it, otherwise a coarse one. A coarse piece takes less time: it has fewer samples and no draft angle or tool.
-  // Only the finished piece has ornaments. Errors: those of make_relief().
+  // Draws the finished piece if take() has received it, and if the plate is not a plain rectangle or the request asks
+  // for the piece. Only the finished piece has ornaments, and the marks of a draft angle, a simplification and a tool.
+  // Otherwise draws a frame on its plate. The height of the frame is exact at rest, and within 3 % of the requested
+  // height while a slider moves. Lithophanes, depths in mm, and reliefs without ground that are bent have no frames:
+  // draws a coarse piece of them, which has fewer samples. Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the picture of this request needs; nothing if take() has received

@@ -301,7 +301,7 @@ Result<void> Engine::finish(PictureRequest& request) {
 }
 
 Result<PictureAnswer> Engine::picture(PictureRequest request) {
-  const bool is_at_rest = request.is_finished || request.render.is_fine;
+  const bool is_at_rest = request.is_finished || request.is_at_rest;
   state_->at_rest.with([&](std::shared_ptr<Progress>& progress) {
     if (!is_at_rest && progress) std::exchange(progress, nullptr)->cancel();
     if (is_at_rest && !progress) progress = std::make_shared<Progress>();

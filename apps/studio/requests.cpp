@@ -130,6 +130,7 @@ Result<PictureRequest> picture_request(const Json& json) {
   read_ornaments_of(request);
   RELIEVO_TRY(request.render, render_from(json));
   request.is_original = flag(json, "original");
+  request.is_at_rest = flag(json, "fine");
   request.is_finished = flag(json, "finished");
   request.has_attention = flag(json, "attention");
   if (const auto turned = json.find("turned"); turned != json.end()) {

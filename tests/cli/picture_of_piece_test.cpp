@@ -126,7 +126,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   request.options = options;
   request.render.width = 720;
   request.render.height = 600;
-  request.render.is_fine = request.is_finished = true;
+  request.render.is_fine = request.is_at_rest = request.is_finished = true;
   const auto model = model_for(options);
   Drawing drawing({model, {}}, 0);
   const auto order = drawing.missing_piece(request);

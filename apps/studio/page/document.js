@@ -13,7 +13,7 @@ export const FIRST = Object.freeze({
   options: Object.freeze({...Object.fromEntries(about.options.filter(({name}) => name !== "alpha")
     .map((option) => [option.name, firstOf(option)])), "base-image": ""}),
   isHeightLocked: true,
-  u: null, // parameter of the compression; null while the height is locked
+  u: null, // parameter of the compression; null while the height decides it
   isDieOfPiece: false, // whether the die was made from a piece of another kind, see kindOf()
   material: "plaster",
   light: [-1, 1, 1],

@@ -241,6 +241,13 @@ test("samples the tone curve and the paper's formula", async () => {
   assert.deepEqual(drawn.curve.kept, drawn.curve.share);
 });
 
+test("meets the height at rest in pictures of any size", async () => {
+  const exact = await picture({options: {...OPTIONS, height: 3.3}, fine: true});
+  await picture({options: {...OPTIONS, height: 3.2}}); // the search for the next height begins here
+  const large = await picture({options: {...OPTIONS, height: 3.3}, width: 2000, height: 1500, fine: true});
+  assert.ok(Math.abs(large.u / exact.u - 1) < 1e-3, `${large.u} is not ${exact.u}`);
+});
+
 test("tells the size of the piece, and cuts the piece that the file will be", async () => {
   const plain = await picture();
   assert.deepEqual(plain.size_mm.map((mm) => mm.toFixed(1)), ["70.0", (60 * (await shape()) + 10).toFixed(1), "5.0"]);
