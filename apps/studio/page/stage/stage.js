@@ -91,7 +91,7 @@ export class Stage {
     return this.drawn === this.wanted;
   }
 
-  // Requests the next picture of the relief. There is one request at a time, always for the newest state.
+  // Requests the next picture of the relief, always of the newest state.
   async pump() {
     if (this.isAsking || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
