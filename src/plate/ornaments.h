@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// Returns the area for ornaments on a plate of that outline.
+// Returns the area for ornaments on a plate of the given outline.
 OrnamentFrame ornament_frame(const PlateOutline& outline, const PlateOptions& options);
 
 // Replaces the level ground of a surface by ground with the shapes on it. The shapes are in the surface's
