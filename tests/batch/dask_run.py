@@ -129,8 +129,8 @@ def check(output, scans, program, good, bad, first):
     assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
     for name in bad:
         assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
-    # A scan may have been started twice only if a worker or the run was killed while it was being made. No scan was
-    # finished twice.
+    # No scan may be finished twice. A scan may be started twice only if a worker or the run was killed while the scan
+    # was being made.
     lines = journal(output)
     made = [record["name"] for record in lines if record["status"] == "made"]
     assert len(made) == len(set(made)) == len(good), f"{len(made)} made, {len(set(made))} different"

@@ -11,8 +11,8 @@ from pathlib import Path
 
 SIZE = ["--method", "linear", "--denoise", "0", "--width", "30", "--height", "1", "--resolution", "0.5"]
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM)
-NO_ROOM, BROKEN = 28, 5  # ENOSPC, EIO
-PATIENCE = 300  # a program that takes more seconds counts as stuck
+NO_ROOM, BROKEN = 28, 5  # the error numbers ENOSPC and EIO
+PATIENCE = 300  # seconds after which a program counts as stuck
 
 
 class Find(Exception):
@@ -98,7 +98,8 @@ class Place:
         self.setup, self.folder = setup, setup.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
-        # Some file systems support files without names, and others do not. Odd and even numbers test one kind each.
+        # Some file systems support files without names, others do not. Places with odd and with even numbers test one
+        # case each.
         self.environment = {"NO_TMPFILE": "1"} if str(number)[-1] in "13579" else {}
 
     def __enter__(self):

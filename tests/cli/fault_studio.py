@@ -185,7 +185,7 @@ def check_studio(page, kind, document, picture):
     page.place.faults[Faults.CLOCK] = 0
     page.must("open", page.opening("shell"))
     error = page.wait(document)
-    if error:  # the error belongs to work that was done during the fault
+    if error:  # an error belongs to work that was done during the fault
         page.must("view", {"document": document, "view": "front"})
         error = page.wait(document)
     require(not error, "studio: cannot prepare the scan again:", error)

@@ -20,7 +20,8 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// Returns the slopes of a cylinder along y. Its normal turns by the angle `turn` from cell to cell.
+// Returns the slopes of a cylinder along y. The normal turns by the angle `turn` from one cell to
+// the next.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }
@@ -76,8 +77,8 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
-  // Around a cone, the slope keeps its steepness but changes its direction. This turns the normals of a steep
-  // cone more than those of a flat one, so the steep cone needs smaller squares.
+  // Around a cone, the slope changes its direction but not its size. This turns the normals of a steep cone
+  // more than those of a flat one. So the steep cone needs smaller squares.
   const auto cone = [](float steepness) {
     return grid_of([&](int x, int y) {
       return Vec2f(steepness *
