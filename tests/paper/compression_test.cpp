@@ -20,7 +20,7 @@ TEST(PaperCompression, WeightIsEquation6) {
 
 TEST(PaperCompression, WeightHasTheLimitsThatThePaperNames) {
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(curvature_weight(0, .2, {infinity, 1}), 1);  // alpha = 0 does not compress
+  EXPECT_EQ(curvature_weight(0, .2, {infinity, 1}), 1);                      // alpha = 0 does not compress
   EXPECT_NEAR(curvature_weight(.7, .2, {1, 0}), 1 - std::exp(-1.0), 1e-15);  // beta = 0 compresses all alike
   EXPECT_EQ(curvature_weight(0, .2, {1, 1}), 0);
   EXPECT_EQ(curvature_weight(0, 0, {1, 1}), curvature_weight(1, 0, {1, 1}));  // no point has curvature
