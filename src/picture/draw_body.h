@@ -18,8 +18,7 @@ namespace relievo {
 // A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is what
 // remains to a sum of 1.
 struct VisiblePoint {
-  // The corners are stored with the point, because looking them up would make live pictures a third
-  // slower.
+  // The corners are stored with the point, because looking them up would make live pictures a third slower.
   Triangle corners = {no_index, no_index, no_index};
   Index triangle = no_index;
   std::uint16_t first = 0, second = 0;

@@ -44,8 +44,7 @@ class LivePlate {
   Vec3f normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const;
   void bend(DrawnBody& body, float bottom);
 
-  // A point of the relief whose height and normal are weighted means of those of three other
-  // points.
+  // A point of the relief whose height and normal are weighted means of those of three other points.
   struct AddedPoint {
     Index point;
     std::array<Index, 3> from;

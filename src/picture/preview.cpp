@@ -17,8 +17,7 @@ namespace {
 
 constexpr double preview_padding =
     .06;  // space for the shadow around the plate, as a share of the picture's longer side
-// The largest longer side of each of the two pictures, which have 3 samples per pixel in each
-// direction.
+// The largest longer side of each of the two pictures, which have 3 samples per pixel in each direction.
 constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
 // Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is

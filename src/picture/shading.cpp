@@ -54,9 +54,8 @@ constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer's distance, in units of half the body's longer side. Because the distance is finite,
-// different parts of level ground reflect different parts of the room, so the ground does not have a
-// uniform tone.
+// The viewer's distance, in units of half the body's longer side. Because the distance is finite, different
+// parts of level ground reflect different parts of the room, so the ground does not have a uniform tone.
 constexpr float viewer_distance = 3.6F;
 
 struct Metal {

@@ -44,8 +44,7 @@ Result<void> check_numbers(const BaseOptions& options) {
   return {};
 }
 
-// Returns the unit vector perpendicular to the base's straight lines. It is exact for 90 and 180
-// degrees.
+// Returns the unit vector perpendicular to the base's straight lines. It is exact for 90 and 180 degrees.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();

@@ -36,8 +36,7 @@ struct Range {
   double darkest, brightest;
 };
 
-// Returns the brightnesses at which the plate is thickest and thinnest. Points on the outline are
-// ignored.
+// Returns the brightnesses at which the plate is thickest and thinnest. Points on the outline are ignored.
 Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_boundary) {
   std::vector<double> inside;
   for (std::size_t i = 0; i < bright.size(); ++i)

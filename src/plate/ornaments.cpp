@@ -84,8 +84,7 @@ class Surroundings {
   std::vector<Vec2> corners_;
 };
 
-// The points and edges of new ground. The kept points of the surface come first, in the order of
-// `old`.
+// The points and edges of new ground. The kept points of the surface come first, in the order of `old`.
 struct NewGround {
   std::vector<Index> old;  // indices of the surface's points that are kept
   std::vector<Vec2> plane;

@@ -19,8 +19,7 @@ using Points = std::span<const Vec2>;
 // of files; it decides for radii above 9 m.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
-// The distance of a line from the centre, as a function of the outline's size: offset + growth *
-// size.
+// The distance of a line from the centre, as a function of the outline's size: offset + growth * size.
 struct Distance {
   double offset = 0, growth = 1;
 
@@ -127,8 +126,7 @@ std::vector<Side> sides_of_hexagon(bool is_pointed) {
   return sides;
 }
 
-// Returns the smallest size at which the distance of the curve from every point is at least the
-// margin.
+// Returns the smallest size at which the distance of the curve from every point is at least the margin.
 double size_around(Points points, const Vec2& centre, const std::vector<Side>& sides, double margin_mm) {
   double size = 0;
   for (const Side& side : sides) {

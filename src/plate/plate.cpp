@@ -13,8 +13,7 @@
 namespace relievo {
 namespace {
 
-// Moves the surface so that the z of its lowest point is exactly the thickness, and no x or y is
-// negative.
+// Moves the surface so that the z of its lowest point is exactly the thickness, and no x or y is negative.
 void raise(Solid& surface, double thickness_mm) {
   const Vec3 begin = used_box(surface.points, surface.triangles).min;
   const Vec3 move(-std::min(0.0, begin.x()), -std::min(0.0, begin.y()), thickness_mm - begin.z());

@@ -40,8 +40,7 @@ struct RimProfilePoint {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the rim's cross-section, from the outline inwards. If there is no rim, it is the outline
-// alone.
+// Returns the rim's cross-section, from the outline inwards. If there is no rim, it is the outline alone.
 std::vector<RimProfilePoint> rim_profile(const RimOptions& rim) {
   if (rim.width_mm == 0) return {{}};
   std::vector<RimProfilePoint> profile;

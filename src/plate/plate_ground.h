@@ -64,8 +64,7 @@ struct RimEdge {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the rim's edges, from the innermost edge to the outline; only the outline if there is no
-// rim.
+// Returns the rim's edges, from the innermost edge to the outline; only the outline if there is no rim.
 std::vector<RimEdge> rim_edges(const PlateOutline& outline, const RimOptions& rim);
 
 // Returns the polygon inside the rim; the outline itself if there is no rim.

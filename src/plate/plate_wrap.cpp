@@ -20,8 +20,7 @@ namespace {
 // reaches the axis.
 constexpr double least_free = .01;
 
-// Returns the points of the plate's back. The back is flat before bending and has the extent of the
-// plate.
+// Returns the points of the plate's back. The back is flat before bending and has the extent of the plate.
 std::vector<Vec2> back_of(const Solid& plate) {
   std::vector<Vec2> places;
   for (std::size_t t = plate.front_triangles; t < plate.triangles.size(); ++t)

@@ -20,8 +20,7 @@ namespace {
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
 constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this is left above it
-// Largest distance by which a point is lifted. A point that would have to be lifted more is
-// removed.
+// Largest distance by which a point is lifted. A point that would have to be lifted more is removed.
 constexpr double most_lift_mm = .01;
 
 // The heights of a surface, and the heights that the tool leaves.
@@ -72,8 +71,7 @@ class ToolHeights {
     return most / static_cast<float>(field_.mm_per_pixel);
   }
 
-  // Returns whether the tool leaves material at a sample, or at the samples `distance` away from
-  // it.
+  // Returns whether the tool leaves material at a sample, or at the samples `distance` away from it.
   bool leaves_near(int x, int y, int distance) const {
     for (const int dy : {-distance, 0, distance})
       for (const int dx : {-distance, 0, distance})
@@ -91,8 +89,7 @@ class ToolHeights {
   Image<float> closed_;
 };
 
-// The points of the new surface. The samples close to these points are marked, so that they are not
-// added.
+// The points of the new surface. The samples close to these points are marked, so that they are not added.
 class PointSet {
  public:
   PointSet(const ToolHeights& heights, const Solid& old)

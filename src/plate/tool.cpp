@@ -150,8 +150,7 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));
   });
-  // The lowest height of the tool's tip at each position. The positions extend beyond the image on
-  // all sides.
+  // The lowest height of the tool's tip at each position. The positions extend beyond the image on all sides.
   Image<float> hanging = dilate(heights, profile, reach);
   // The tool skips positions that have no heights near them.
   for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;

@@ -42,8 +42,7 @@ RELIEVO_INLINE void write_eights(const SlopeParams& params, std::size_t first, s
 // Standard deviations of the Gaussians that separate the layers, as shares of the longer side.
 // docs/method.md has the formula, docs/decisions/layers.md the reason.
 constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
-// The slope at which faded_xy() halves the x and y of a normal. A slope of 12 corresponds to 85
-// degrees.
+// The slope at which faded_xy() halves the x and y of a normal. A slope of 12 corresponds to 85 degrees.
 constexpr double half_kept_slope = 12;
 
 // The u of a layer is multiplied by exp(-`attenuation` * detail * share), where the share is one of

@@ -11,8 +11,7 @@
 
 namespace relievo {
 
-// Returns the weighted sum of a point's layers. Multiplies all eight numbers of the four layers at
-// once.
+// Returns the weighted sum of a point's layers. Multiplies all eight numbers of the four layers at once.
 RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
   typedef std::int16_t Short8 __attribute__((vector_size(16)));
   static_assert(sizeof(Short8) == sizeof(PointLayers));

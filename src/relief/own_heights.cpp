@@ -30,9 +30,8 @@ Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std:
   return matrix;
 }
 
-// Returns the largest extent in depth among the connected components of the points. Components are
-// measured separately, because the letters of a legend may lie at several depths although each letter is
-// level.
+// Returns the largest extent in depth among the connected components of the points. Components are measured
+// separately, because the letters of a legend may lie at several depths although each letter is level.
 template <typename Link>
 double depth_of(const Surface& surface, std::span<const Index> points, std::span<const Link> links,
                 const std::vector<Index>& unknown) {

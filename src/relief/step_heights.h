@@ -32,10 +32,9 @@ struct StepFields {
   // plate.
   StepHeights steps;
   // Across a wall the height difference is tanh(d / (0.05 side)), where side is the longer side; along all
-  // other edges it is 0. Positions and normals are averaged on both sides of the wall over about two
-  // sampling distances. d is the part of the difference in mean depth that slopes do not explain. So these
-  // steps are 1 high at deep jumps, and fade out at the ends of a jump. They raise each part above the
-  // surface behind it.
+  // other edges it is 0. Positions and normals are averaged on both sides of the wall over about two sampling
+  // distances. d is the part of the difference in mean depth that slopes do not explain. So these steps are 1
+  // high at deep jumps, and fade out at the ends of a jump. They raise each part above the surface behind it.
   StepHeights planes;
 
   // `system` is the system of all points of the surface.

@@ -232,8 +232,7 @@ std::vector<Index> without_holes(const Surface& surface, std::span<const Index> 
   return all;
 }
 
-// Returns the index in `points` of the point nearest to `place`; no_index if the distance is over 4
-// rho.
+// Returns the index in `points` of the point nearest to `place`; no_index if the distance is over 4 rho.
 Index nearest_of(const Surface& surface, std::span<const Index> points, const Vec3& place) {
   constexpr double most_rho = 4;
   double least = most_rho * surface.rho;

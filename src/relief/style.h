@@ -16,8 +16,7 @@
 
 namespace relievo {
 
-// Returns the inputs of the slope functions. The result refers to the arguments, which must outlive
-// it.
+// Returns the inputs of the slope functions. The result refers to the arguments, which must outlive it.
 inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayers> layers,
                               std::span<const float> boundary_weight) {
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
@@ -167,8 +166,7 @@ class LayeredStyle {
   double scale_;
 };
 
-// Returns f(style), where `style` implements the style of the shape. The shape must outlive the
-// call.
+// Returns f(style), where `style` implements the style of the shape. The shape must outlive the call.
 template <typename F>
 decltype(auto) with_style(const Shape& shape, F&& f) {
   return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperWeightsStyle(shape));

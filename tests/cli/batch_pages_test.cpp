@@ -72,8 +72,7 @@ TEST(Caption, StaysWithinItsPlace) {
     return image;
   };
   EXPECT_EQ(count_within(written(""), 0, 0, 0, 0), 0);
-  // The letter l of the page's font is a stem of seven pixels, a foot of two pixels and a serif of
-  // one pixel.
+  // The letter l of the page's font is a stem of seven pixels, a foot of two pixels and a serif of one pixel.
   EXPECT_EQ(count_within(written("l"), 47, 53, 8, 15), 7 + 3);
   const int three = count_within(written("lll"), 41, 59, 8, 15);
   EXPECT_EQ(three, 3 * 10);

@@ -40,8 +40,7 @@ TEST_F(CliInputs, ReadsNoFileOutsideTheFolderOfAGltf) {
   expect_refusal("info scans/a.gltf", "expected a file in the same folder, found '../b.bin'");
 }
 
-// The triangles use three of the five points. Of the unused points, one is not finite and one is far
-// away.
+// The triangles use three of the five points. Of the unused points, one is not finite and one is far away.
 TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   write_all(folder_ / "a.obj",
             "v 0 0 0\nv 2 0 0\nv 0 3 0\nv nan 0 0\nv 0 0 1e30\nvn 0 0 1\nvn 0 0 -1\n"

@@ -45,8 +45,7 @@ TEST_P(FailingBlocks, GiveTheCallerTheirException) {
   EXPECT_THROW(parallel_both([] { throw std::bad_alloc(); }, [] {}), std::bad_alloc);
 }
 
-// The lowest failing block waits a while for another block to fail, so that a higher block often fails
-// first.
+// The lowest failing block waits a while for another block to fail, so that a higher block often fails first.
 TEST_P(FailingBlocks, GiveTheExceptionOfTheLowestOne) {
   for (std::size_t first = 0; first < 60; ++first) {
     std::atomic<bool> has_other_failed = false;

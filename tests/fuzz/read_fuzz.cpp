@@ -47,8 +47,7 @@ std::string_view next_part(std::string_view& content) {
   return part;
 }
 
-// Returns the files beside a text. Each is given under all names by which the text might refer to
-// it.
+// Returns the files beside a text. Each is given under all names by which the text might refer to it.
 FilesBeside files_beside(std::string_view rest) {
   const std::string_view words = next_part(rest);
   return [words, rest](const std::string& name) -> Result<std::vector<std::byte>> {

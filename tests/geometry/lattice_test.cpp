@@ -74,8 +74,7 @@ TEST(Lattice, IsSmoothBetweenItsNodes) {
   }
 }
 
-// The expected values follow the definition of the mean: each node is computed from all counted
-// points.
+// The expected values follow the definition of the mean: each node is computed from all counted points.
 TEST(Lattice, GathersMeansBySquaredWeights) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());

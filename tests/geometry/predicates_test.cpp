@@ -56,8 +56,7 @@ int exact_incircle(const Quad& q) {
   return incircle_oracle(q, BigInteger::scaled).sign();
 }
 
-// Returns the sign as computed in plain doubles. If it is sometimes wrong, the test contains hard
-// cases.
+// Returns the sign as computed in plain doubles. If it is sometimes wrong, the test contains hard cases.
 int naive_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return sign(orient2d_oracle(a, b, c, [](double x) { return x; }));
 }

@@ -194,8 +194,7 @@ std::vector<JudgedGltf> judged_gltf(const std::vector<fs::path>& reports) {
   return all;
 }
 
-// Files for which a test need not hold, and the reason. The files are given by the ends of their
-// names.
+// Files for which a test need not hold, and the reason. The files are given by the ends of their names.
 struct Exceptions {
   const char* reason;
   std::vector<std::string> names;

@@ -92,8 +92,7 @@ TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
             "d: expected at most 134217728 pixels, found 100000 x 100000");
 }
 
-// The rows of a PFM start at the bottom. The sign of the last number of its header gives the byte
-// order.
+// The rows of a PFM start at the bottom. The sign of the last number of its header gives the byte order.
 TEST(DepthPnm, ReadsFractionsFromBelow) {
   const auto from_below = [](int c, int r) { return raw(static_cast<float>(number(c, rows - 1 - r))); };
   expect_numbers(image_in("Pf\n6 5\n-1.0\n" + values(from_below)), 0);

@@ -14,8 +14,7 @@ namespace {
 
 constexpr int squares_across = 3, squares_down = 2;
 
-// Returns levels that differ from square to square. They include the smallest and the largest
-// level.
+// Returns levels that differ from square to square. They include the smallest and the largest level.
 int level(int column, int row) {
   return 51 * (column + squares_across * row);
 }
@@ -87,8 +86,7 @@ TEST(DepthJpeg, MayBeProgressive) {
   expect_levels(image_of(picture));
 }
 
-// The expected values follow the formulas of JFIF, with results rounded to integers as libjpeg
-// does.
+// The expected values follow the formulas of JFIF, with results rounded to integers as libjpeg does.
 TEST(DepthJpeg, ColoursAreChannelsOrLuminance) {
   const int y = 100, blue = 40, red = -30;
   const std::string file = jpeg_of(one_colour(y - 128, blue, red));

@@ -75,8 +75,7 @@ TEST(E57, SphericalCoordinatesAreTurnedIntoCartesianOnes) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((file.cloud.points[i] - expected[i]).norm(), 1e-15);
 }
 
-// The pose consists of a rotation, a quarter turn about z as a quaternion of length 2, and a
-// translation.
+// The pose consists of a rotation, a quarter turn about z as a quaternion of length 2, and a translation.
 TEST(E57, ScansAreMovedByTheirPoses) {
   const std::string pose =
       "<pose><rotation><w>1.4142135623730951</w><z>1.4142135623730951</z><x/><y/></rotation>"
@@ -93,8 +92,7 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   EXPECT_EQ(file.cloud.normals[1], Vec3f(1, 0, 0));
 }
 
-// The pose has no translation. Of its quaternion, a quarter turn about x, it has only the components
-// w and x.
+// The pose has no translation. Of its quaternion, a quarter turn about x, it has only the components w and x.
 TEST(E57, MissingPartsOfAPoseAreZero) {
   const auto file = value_of(
       read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a"));

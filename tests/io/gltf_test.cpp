@@ -52,8 +52,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
 const std::string draco_primitive =
     R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}},"attributes")";
 
-// A file that has both plain and compressed vertices does not require the extension for
-// compression.
+// A file that has both plain and compressed vertices does not require the extension for compression.
 TEST(Gltf, CompressedVerticesAreRefusedUnlessThereArePlainOnes) {
   const std::string both = replaced(gltf_json(), R"("attributes")", draco_primitive);
   EXPECT_EQ(file_of(glb_of(both), "a.glb").mesh.triangles, tetrahedron_triangles);

@@ -161,8 +161,7 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Returns small valid files of every format: format_samples() and more PLY files. Tests break these
-// files.
+// Returns small valid files of every format: format_samples() and more PLY files. Tests break these files.
 std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{

@@ -55,8 +55,7 @@ TEST(ReadCloud, ContentGoesBeforeTheName) {
   EXPECT_EQ(read("v 1 2 3\n", "scan.OBJ")->format, "OBJ");
 }
 
-// Writes a cloud by write_ply(), which does not check the cloud. Returns the file as the reader
-// reads it.
+// Writes a cloud by write_ply(), which does not check the cloud. Returns the file as the reader reads it.
 CloudFile through_ply(const Cloud& cloud) {
   return file_of(as_string(write_ply(cloud)), "scan.ply");
 }

@@ -1,5 +1,4 @@
-// Tests attributes in both versions of meshopt's compression. The encoders do not depend on the
-// decoder.
+// Tests attributes in both versions of meshopt's compression. The encoders do not depend on the decoder.
 #include <gtest/gtest.h>
 
 #include <array>

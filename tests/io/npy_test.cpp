@@ -48,8 +48,7 @@ TEST(NpyPoints, KeepTheDigitsOfLargeCoordinates) {
             Vec3(far(1, 0), far(1, 1), far(1, 2)));
 }
 
-// The array contains two pictures of 3 x 4 points. In Fortran's order, the first index changes
-// fastest.
+// The array contains two pictures of 3 x 4 points. In Fortran's order, the first index changes fastest.
 TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   const auto far = [](std::size_t row, std::size_t column) { return counted(row + 100, column); };
   std::vector<Vec3> points = counted_points(124);

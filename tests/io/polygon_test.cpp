@@ -1,5 +1,4 @@
-// Checks by areas that triangles cover polygons, among them polygons that a fan of triangles does
-// not cover.
+// Checks by areas that triangles cover polygons, among them polygons that a fan of triangles does not cover.
 #include "io/polygon.h"
 
 #include <gtest/gtest.h>

@@ -92,8 +92,7 @@ TEST(ObjTextures, NumbersOfVerticesThatAreNotThereTakeNoMemory) {
             "a.obj, line 4: expected an index up to 1, the number of vertices, found 4000000000");
 }
 
-// Returns the sample with texture coordinates for its four vertices, and with a material that uses
-// a picture.
+// Returns the sample with texture coordinates for its four vertices, and with a material that uses a picture.
 std::string textured_gltf(const std::string& of_texture, const std::string& uri) {
   std::string buffer = gltf_buffer();
   for (const float value : {.125F, .125F, .375F, .125F, .125F, .375F, .875F, .875F}) buffer += raw(value);

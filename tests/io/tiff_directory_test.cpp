@@ -13,8 +13,7 @@
 namespace relievo {
 namespace {
 
-// A tag to add to whole_tiff(). Added tags follow the other tags. Their numbers are stored after the
-// picture.
+// A tag to add to whole_tiff(). Added tags follow the other tags. Their numbers are stored after the picture.
 struct ExtraTag {
   std::uint16_t tag, type;
   std::uint32_t count;

@@ -155,8 +155,7 @@ TEST(Xyz, PtsMayHaveSeveralBlocks) {
             "a.pts, line 4: expected 4 columns as in line 2, found 1");
 }
 
-// Returns a table of 20 lines. Each line consists of `before`, three coordinates with fractions, and
-// `after`.
+// Returns a table of 20 lines. Each line consists of `before`, three coordinates with fractions, and `after`.
 std::string table(const std::function<std::string(int)>& before, const std::string& after) {
   std::string text;
   for (int i = 0; i < 20; ++i)

@@ -116,8 +116,7 @@ TEST_P(Scripts, HaveTheAdvancesOfHbShape) {
   double total = 0;
   for (const double advance : advances) total += advance;
   ASSERT_LE(line.clusters.size(), advances.size());
-  // The height of capitals in units of the font is unknown here, so ratios of advances are
-  // compared.
+  // The height of capitals in units of the font is unknown here, so ratios of advances are compared.
   std::size_t glyph = 0;
   for (const GlyphCluster& cluster : line.clusters) {
     double sum = 0;

@@ -77,8 +77,7 @@ class Studio {
     return {answer.status, without_times(answer)};
   }
 
-  // Opens a scan, and waits until its view is prepared. Different numbers `copy` stand for different
-  // scans.
+  // Opens a scan, and waits until its view is prepared. Different numbers `copy` stand for different scans.
   Told open(const std::string& sample, int copy) {
     const std::string scan = path(sample + std::to_string(copy));
     if (!fs::exists(scan)) fs::create_hard_link(path(sample), scan);
@@ -132,9 +131,8 @@ class Studio {
   std::string document_;
 };
 
-// Returns the numbers of the allocations to fail in turn, out of the `all` allocations of a request. They
-// are evenly spaced. There are about `usual` of them, or as many as the environment variable ALLOCATIONS
-// says.
+// Returns the numbers of the allocations to fail in turn, out of the `all` allocations of a request. They are
+// evenly spaced. There are about `usual` of them, or as many as the environment variable ALLOCATIONS says.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
@@ -152,8 +150,7 @@ class StudioMemory : public testing::TestWithParam<int> {
   }
   void TearDown() override { set_thread_count(0); }
 
-  // Makes a request without faults. Then repeats it several times, each time with another failing
-  // allocation.
+  // Makes a request without faults. Then repeats it several times, each time with another failing allocation.
   template <typename Request>
   void survives(const Request& request, long usual = 12) {
     const Told whole = request();

@@ -5,8 +5,7 @@
 namespace relievo::paper {
 namespace {
 
-// Returns the height of a relief in which |k| = delta at all points. Without compression its height
-// is 1.
+// Returns the height of a relief in which |k| = delta at all points. Without compression its height is 1.
 double height_of(double alpha, double beta) {
   return 1 - std::exp(-std::pow(alpha, -beta));
 }

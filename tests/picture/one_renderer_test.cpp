@@ -140,8 +140,7 @@ PlateOptions in_form(PlateOptions plate, Form form) {
   return plate;
 }
 
-// Returns plates with each base: plain ones, mirrored ones, and dies. The plates with a dome are
-// coins.
+// Returns plates with each base: plain ones, mirrored ones, and dies. The plates with a dome are coins.
 std::vector<NamedPlate> plates_of_all_kinds() {
   std::vector<NamedPlate> plates{{"coin", coin_of(2)}};
   for (const Form form : {Form::relief, Form::mirror, Form::die}) {
@@ -232,8 +231,7 @@ TEST(OneRenderer, RefusesAWrapAsTheSolidThatIsMadeOfTheFrame) {
   }
 }
 
-// If the height of the rim changes, a quick picture keeps the old bevel; a fine picture gets the new
-// bevel.
+// If the height of the rim changes, a quick picture keeps the old bevel; a fine picture gets the new bevel.
 TEST(OneRenderer, FollowsTheHeightOfARim) {
   FrameRenderer used(bodies().model), fresh(bodies().model);
   const RenderOptions quick = options_for(Material::plaster, false, 40),

@@ -17,8 +17,7 @@ std::shared_ptr<const ReliefModel> ball() {
   return model;
 }
 
-// Heights and normals of a relief of the ball. field() computes them from a function of the
-// position.
+// Heights and normals of a relief of the ball. field() computes them from a function of the position.
 struct Field {
   std::vector<float> heights;
   std::vector<Vec3f> normals;

@@ -56,8 +56,7 @@ std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& vi
   return value_of(session.turn(view)).model;
 }
 
-// Calls turn() twice before the first model is ready. Returns whether both calls returned the same
-// relief.
+// Calls turn() twice before the first model is ready. Returns whether both calls returned the same relief.
 bool turns_once(bool makes_first_relief) {
   Session session;
   HeldAtPoints held{session};
@@ -114,8 +113,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   EXPECT_EQ(asked, 1);
 }
 
-// The view at the end of a turn may already be in preparation when the last picture of the turn is
-// requested.
+// The view at the end of a turn may already be in preparation when the last picture of the turn is requested.
 TEST(Session, TurningLeavesThePreparationAlone) {
   Session session;
   session.open(preparation_of());
@@ -130,8 +128,7 @@ TEST(Session, TurningLeavesThePreparationAlone) {
   ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
-// A session whose first turn gets no points until it is cancelled; then it gets the points of all
-// sides.
+// A session whose first turn gets no points until it is cancelled; then it gets the points of all sides.
 struct StuckTurn {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> is_first = true, has_ended = false;

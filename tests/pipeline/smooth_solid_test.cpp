@@ -89,8 +89,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   EXPECT_LT(quantile(angles, .999), GetParam().rare_deg);
 }
 
-// The slope limit removes the rounding at the buttons' edges, which leaves a crease around each
-// button.
+// The slope limit removes the rounding at the buttons' edges, which leaves a crease around each button.
 TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
   for (const Form form : {Form::relief, Form::die}) {
     ReliefOptions options;

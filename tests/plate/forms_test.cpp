@@ -96,8 +96,7 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const Box box = Box::of(it.solid.points);
   EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is so thin that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
-  // The lamp is at the upper left. So the plate is thinner at the ball's upper left than at its lower
-  // right.
+  // The lamp is at the upper left. So the plate is thinner at the ball's upper left than at its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));
   EXPECT_LT(height_around(front, {-3, 3}, 1), .1);
   EXPECT_GT(height_around(front, {5, -5}, 1), 1);
@@ -121,8 +120,7 @@ TEST(Forms, AHighlightDarkensNothingElseOfALithophane) {
   EXPECT_NEAR(middle(255), middle(60), .05);
 }
 
-// Two of the ball's three shades are darker than a tenth of white. Still, their heights must
-// differ.
+// Two of the ball's three shades are darker than a tenth of white. Still, their heights must differ.
 TEST(Forms, ALithophaneShowsWhatIsDarkerThanATenth) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) {
     return p.y() > .3 ? 255 : p.y() > -.3 ? 60 : 30;

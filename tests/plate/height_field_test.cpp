@@ -33,8 +33,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Earlier versions smoothed flat bevels such as these, and the folds of the next test, by up to 0.7
-// mm.
+// Earlier versions smoothed flat bevels such as these, and the folds of the next test, by up to 0.7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {

@@ -19,8 +19,7 @@ double dome(const Vec2& p) {
   return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
 }
 
-// Returns a front over random points in a square and the corners of the square. Its heights are
-// height(p).
+// Returns a front over random points in a square and the corners of the square. Its heights are height(p).
 template <typename F>
 HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);

@@ -20,8 +20,7 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// Returns the slopes of a cylinder along y. The normal turns by the angle `turn` from one cell to
-// the next.
+// Returns the slopes of a cylinder along y. The normal turns by the angle `turn` from one cell to the next.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }

@@ -118,14 +118,12 @@ TEST(CloseByTool, IsTheDefinition) {
     }
 }
 
-// A ball in a groove touches both walls, so the height of the material that remains at the bottom
-// is known.
+// A ball in a groove touches both walls, so the height of the material that remains at the bottom is known.
 TEST(CloseByTool, ABallInAGroove) {
   const double step = .01, half = .3, radius = 1;
   const auto groove = picture(301, 41, [&](int x, int) { return std::abs(x - 150) * step <= half ? 0 : 2; });
   const Image<float> left = close_by_tool(groove, step, ball);
-  // The ball rests on the upper edges of both walls. Their distance from its axis is `half` plus
-  // one sample.
+  // The ball rests on the upper edges of both walls. Their distance from its axis is `half` plus one sample.
   const double edge = half + step;
   EXPECT_NEAR(left.pixels[20 * 301 + 150], 2 - (radius - std::sqrt(radius * radius - edge * edge)), 1e-5);
 }

@@ -9,8 +9,7 @@ namespace {
 
 constexpr int width = 30, height = 20;
 
-// Returns a mask of all pixels that are not in the hole and not within `margin` of the picture's
-// edge.
+// Returns a mask of all pixels that are not in the hole and not within `margin` of the picture's edge.
 PixelMask measured(int margin, bool has_hole = false) {
   Image8 is_measured = filled_image(width, height, std::uint8_t{0});
   for (int y = margin; y < height - margin; ++y)

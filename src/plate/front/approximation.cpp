@@ -52,8 +52,7 @@ double Approximation::height(Index t, const Vec2& place) const {
          (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
 }
 
-// Returns the neighbour of t across an edge that separates t from `place`; t itself if t contains
-// `place`.
+// Returns the neighbour of t across an edge that separates t from `place`; t itself if t contains `place`.
 Index Approximation::towards(const Vec2& place, Index t, Index from) const {
   const Triangle corners = mesh_->corners(t);
   for (Index i = 0; i < 3; ++i) {

@@ -95,8 +95,7 @@ HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Trian
   return alone;
 }
 
-// Says whether a point of a front belongs to the ground, to the relief or to the boundary between
-// them.
+// Says whether a point of a front belongs to the ground, to the relief or to the boundary between them.
 enum class Kind : std::uint8_t { ground, relief, boundary };
 
 std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {

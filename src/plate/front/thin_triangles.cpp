@@ -167,9 +167,8 @@ class Flipper {
     wake_around(thin);
   }
 
-  // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the
-  // opposite corner of the neighbour. Does nothing if the thinner of both triangles would not
-  // become wider.
+  // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the opposite
+  // corner of the neighbour. Does nothing if the thinner of both triangles would not become wider.
   bool flip(Index thin, const Triangle& abc, Index neighbour) {
     const auto [a, b, c] = abc;
     const Triangle& other = front_.triangles[neighbour];

@@ -70,8 +70,7 @@ class HeightCorrection {
     return lattice_.at(point, workspace.tiles);
   }
 
-  // The heights and weights w_b, one per point each, and the limits that the heights are compressed
-  // to.
+  // The heights and weights w_b, one per point each, and the limits that the heights are compressed to.
   template <typename Real>
   struct Heights {
     std::span<Real> values;
