@@ -11,8 +11,7 @@
 namespace relievo {
 namespace {
 
-// At edges of a plate, normals differ by more than this angle; between the facets of round parts they
-// differ by less.
+// At edges of a plate, normals differ by more than this angle; between the facets of round parts they differ by less.
 constexpr double sharpest_deg = 20;
 
 // Tolerance for the heights of points on the ground, which differ slightly because solids are
@@ -48,8 +47,7 @@ Part part_of(const Solid& solid, std::size_t t) {
 
 }  // namespace
 
-// The ground and the rim's bevel are smoothed separately, so that their common edge stays sharp even at a
-// small angle.
+// The ground and the rim's bevel are smoothed separately, so that their common edge stays sharp even at a small angle.
 PlateParts plate_parts(const Solid& solid) {
   const std::size_t count = solid.triangles.size();
   PlateParts out{std::vector<Part>(count), std::vector<Index>(count, no_index), {}, solid.front_triangles};

@@ -135,8 +135,7 @@ class Painter {
         shader_(params.material, direction_of(params.light), to_viewer_),
         tint_(params.reach, body.front) {}
 
-  // Returns the linear colour of a visible point. x and y are its position in the picture, in
-  // pixels of the transform.
+  // Returns the linear colour of a visible point. x and y are its position in the picture, in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
     Lit lit{Vec3f::UnitZ(),
             {1, 1},

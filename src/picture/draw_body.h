@@ -35,8 +35,7 @@ struct VisiblePoint {
 
 using VisibilityBuffer = Image<VisiblePoint>;
 
-// Returns the body's triangles in pixels of the picture. For a height field seen from above, the result has
-// no heights.
+// Returns the body's triangles in pixels of the picture. For a height field seen from above, the result has no heights.
 RasterInput raster_input(const DrawnBody& body, const ScreenTransform& transform);
 
 // Returns the point of a triangle of the body at position `place` in the picture.
@@ -85,8 +84,7 @@ struct DrawCache {
 void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
                DrawCache& cache, Image8& picture);
 
-// Returns the heights of the body's front above its lowest point. `longer_side_px` is the longer
-// side of the result.
+// Returns the heights of the body's front above its lowest point. `longer_side_px` is the longer side of the result.
 HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisibility& cache);
 
 }  // namespace relievo

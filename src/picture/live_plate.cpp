@@ -52,8 +52,7 @@ std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid)
   return kept;
 }
 
-// Returns the number of points of the front. They come first in the solid's list; the points of the
-// bottom follow.
+// Returns the number of points of the front. They come first in the solid's list; the points of the bottom follow.
 std::size_t front_points(const Solid& solid) {
   Index last = 0;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -111,8 +110,7 @@ Vec2 LivePlate::find_places(const Solid& solid) {
   return middle;
 }
 
-// Finds the points that make_plate() has added to the relief, because it divided triangles to follow the
-// base.
+// Finds the points that make_plate() has added to the relief, because it divided triangles to follow the base.
 void LivePlate::find_added_points(const Solid& solid) {
   std::vector<std::uint8_t> is_added(places_.size(), 0);
   for (const bool is_relief : {true, false})  // points on a common border count as ground
@@ -225,8 +223,7 @@ Result<DrawnBody> LivePlate::body(const Shown& shown, double rim_mm) {
   return body;
 }
 
-// Bends a body. The body has the heights of the flat plate; `bottom` is the height of the flat plate's
-// bottom.
+// Bends a body. The body has the heights of the flat plate; `bottom` is the height of the flat plate's bottom.
 void LivePlate::bend(DrawnBody& body, float bottom) {
   std::vector<Vec3f> points(places_.size() + below_.size());
   parallel_for(points.size(), [&](std::size_t i) {

@@ -10,8 +10,7 @@ namespace {
 constexpr double frame_padding =
     .055;  // space for the shadow around the plate, as a share of the picture's shorter side
 
-// The plate's triangles are computed only once, for a relief of this width. Options move only the
-// plate's corners.
+// The plate's triangles are computed only once, for a relief of this width. Options move only the plate's corners.
 constexpr double width_mm = 100;
 
 Mat3 rotation_of(const Camera& camera) {
@@ -81,9 +80,8 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   return body;
 }
 
-// An orbiting camera keeps the scale of the front view as long as the plate's corners stay in the picture.
-// The corners may come closer to the picture's edge than in the front view, which needs space for the
-// plate's shadow.
+// An orbiting camera keeps the scale of the front view as long as the plate's corners stay in the picture. The corners
+// may come closer to the picture's edge than in the front view, which needs space for the plate's shadow.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
   constexpr double least_padding = .03;
   const double side = std::min(options.width, options.height);

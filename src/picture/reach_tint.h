@@ -10,8 +10,7 @@ namespace relievo {
 
 class ReachTint {
  public:
-  // `front` is the box of the measured front in the body's coordinates. If `reach` is null, colours do
-  // not change.
+  // `front` is the box of the measured front in the body's coordinates. If `reach` is null, colours do not change.
   ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
 
   // Returns the linear colour of a point on the front, given its colour without tint. If more material

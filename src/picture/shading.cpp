@@ -5,18 +5,16 @@
 namespace relievo {
 namespace {
 
-// Strengths of lamp and sky. Their sum is 1, so a surface that faces both has the brightness of its material,
-// and no value is clipped. With less sky light, shadows would lose their detail; with more, the relief would
-// look flat.
+// Strengths of lamp and sky. Their sum is 1, so a surface that faces both has the brightness of its material, and no
+// value is clipped. With less sky light, shadows would lose their detail; with more, the relief would look flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
 // The direction of the brightest sky: above, and slightly away from the lamp, so that slopes facing away from
 // the lamp are modelled, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the
-// plate's normal is `usual_lamp_z`. At this cosine, the lamp is as far to the left and as far above as in
-// front.
+// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the plate's
+// normal is `usual_lamp_z`. At this cosine, the lamp is as far to the left and as far above as in front.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
@@ -113,8 +111,7 @@ class Patches {
   }
 
  private:
-  // A rotated grid of noise. One side of the table is the vector `period` * (right, up), in cells of the
-  // grid.
+  // A rotated grid of noise. One side of the table is the vector `period` * (right, up), in cells of the grid.
   struct Slant {
     float right, up;
     int period;

@@ -207,9 +207,8 @@ class Refiner {
     for (std::size_t e = 0; e < 3; ++e) parts_.push_back({t[e], t[(e + 1) % 3], within});
   }
 
-  // Splits a triangle into two to four triangles. `middle` contains the new point on each edge, or no_index.
-  // A quadrilateral is divided by its shorter diagonal, because the longer diagonal would give thinner
-  // triangles.
+  // Splits a triangle into two to four triangles. `middle` contains the new point on each edge, or no_index. A
+  // quadrilateral is divided by its shorter diagonal, because the longer diagonal would give thinner triangles.
   void split(const Triangle& t, const std::array<Index, 3>& middle) {
     const auto count = std::ranges::count_if(middle, [](Index i) { return i != no_index; });
     if (count == 0) return;
@@ -260,8 +259,7 @@ class Refiner {
     outline_ = std::move(longer);
   }
 
-  // Sorts the triangles by the index of their original triangle, so that the front's triangles come
-  // first again.
+  // Sorts the triangles by the index of their original triangle, so that the front's triangles come first again.
   void restore_order() {
     std::vector<Index> order = all_indices(origin_.size());
     std::ranges::stable_sort(order, {}, [&](Index t) { return origin_[t]; });

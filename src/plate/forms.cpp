@@ -17,10 +17,9 @@
 namespace relievo {
 namespace {
 
-// The shares of points at which brightness is clipped. The plate is thinnest for the brightest 2 % of the
-// points; otherwise a few highlights would leave everything else dark. It is thickest for the darkest tenth
-// of the points. If the points below a tenth of the highlights' brightness are fewer, it is thickest for
-// these instead.
+// The shares of points at which brightness is clipped. The plate is thinnest for the brightest 2 % of the points;
+// otherwise a few highlights would leave everything else dark. It is thickest for the darkest tenth of the points. If
+// the points below a tenth of the highlights' brightness are fewer, it is thickest for these instead.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 

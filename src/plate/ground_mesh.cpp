@@ -102,8 +102,7 @@ std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vect
   return triangles;
 }
 
-// Triangles that cover the polygon inside the rim. The relief's triangles come first, then those of
-// the ground.
+// Triangles that cover the polygon inside the rim. The relief's triangles come first, then those of the ground.
 struct Cover {
   std::vector<Triangle> triangles;
   std::size_t relief = 0;  // the number of the relief's triangles

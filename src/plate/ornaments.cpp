@@ -209,9 +209,8 @@ class GroundMaker {
     return is_within;
   }
 
-  // Limits the slopes of triangles where walls meet. An edge between points of two walls can make a triangle
-  // steeper than both walls. The heights must also stay within their range, so slopes and heights are limited
-  // alternately.
+  // Limits the slopes of triangles where walls meet. An edge between points of two walls can make a triangle steeper
+  // than both walls. The heights must also stay within their range, so slopes and heights are limited alternately.
   void limit(std::span<const Triangle> triangles) {
     const std::size_t kept = new_.old.size();
     std::vector<double> heights(kept, 0);
@@ -244,8 +243,7 @@ class GroundMaker {
     return {};
   }
 
-  // Replaces the old triangles of the ground by `ground`, whose corners are indices of the new
-  // ground's points.
+  // Replaces the old triangles of the ground by `ground`, whose corners are indices of the new ground's points.
   void replace_ground(std::span<const Triangle> ground) {
     std::vector<Triangle>& triangles = surface_.triangles;
     std::vector<Region>& regions = surface_.regions;

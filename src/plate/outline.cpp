@@ -51,9 +51,8 @@ struct CircleSides {
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns a polygon in the unit circle that approximates a circle of the given radius. If it is scaled to
-// this radius, its deviation from the circle is at most the larger of finest_mm and finest_share of the
-// radius.
+// Returns a polygon in the unit circle that approximates a circle of the given radius. If it is scaled to this radius,
+// its deviation from the circle is at most the larger of finest_mm and finest_share of the radius.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));

@@ -16,8 +16,7 @@
 namespace relievo {
 namespace {
 
-// The share of the smallest radius of the wrap that the bent plate must leave free, so that no point
-// reaches the axis.
+// The share of the smallest radius of the wrap that the bent plate must leave free, so that no point reaches the axis.
 constexpr double least_free = .01;
 
 // Returns the points of the plate's back. The back is flat before bending and has the extent of the plate.
@@ -35,8 +34,7 @@ struct SidePoint {
   Index point;
 };
 
-// Returns the points on the side of the plate that faces the given direction, sorted along the side and by
-// height.
+// Returns the points on the side of the plate that faces the given direction, sorted along the side and by height.
 std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   const Vec2 along(std::abs(direction.y()), std::abs(direction.x()));
   double farthest = 0, nearest = 0;

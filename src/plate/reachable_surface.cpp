@@ -110,8 +110,7 @@ class PointSet {
         if (is_taken_.contains(x, y)) is_taken_.at(x, y) = 1;
   }
 
-  // Adds the point if the tool reaches it. If the tool misses the point by little, the point is lifted
-  // and added.
+  // Adds the point if the tool reaches it. If the tool misses the point by little, the point is lifted and added.
   void add_if_reached(const Vec3& point, const Colour& colour) {
     const double left = heights_.at(point) - point.z();
     if (left <= least_left_mm)

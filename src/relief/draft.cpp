@@ -96,9 +96,8 @@ class Limiter {
     return {};
   }
 
-  // The least-squares result can be far above the limit, for example if walls are a hundred times too steep.
-  // Then limit_slopes() fails, and all heights are lowered before it is called again, at most `most_tries`
-  // times.
+  // The least-squares result can be far above the limit, for example if walls are a hundred times too steep. Then
+  // limit_slopes() fails, and all heights are lowered before it is called again, at most `most_tries` times.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
@@ -109,9 +108,8 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches for the relief of a given height under the slope limit. The search varies x, with which the
-// height grows. x is the logarithm of u if the method has a shape, else (for baselines) the logarithm of a
-// scale factor.
+// Searches for the relief of a given height under the slope limit. The search varies x, with which the height grows. x
+// is the logarithm of u if the method has a shape, else (for baselines) the logarithm of a scale factor.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
@@ -131,10 +129,9 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the
-  // relief, before its slopes are limited, is 64 times as high as a cone that has the largest slope
-  // and, as its radius, half the longer side. This does not depend on the requested height, so the
-  // largest height is the same for all requests.
+  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief, before
+  // its slopes are limited, is 64 times as high as a cone that has the largest slope and, as its radius, half the
+  // longer side. This does not depend on the requested height, so the largest height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

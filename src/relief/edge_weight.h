@@ -1,7 +1,6 @@
-// Computes the weight of an edge in equation (9). The weight is used in the systems of all points and of
-// control points, and for the steps at depth jumps. TriangleSlopes uses half_edge_weight() and
-// needle_share(), because its weights belong to triangles. tests/support/least_squares.h computes the
-// weight independently.
+// Computes the weight of an edge in equation (9). The weight is used in the systems of all points and of control
+// points, and for the steps at depth jumps. TriangleSlopes uses half_edge_weight() and needle_share(), because its
+// weights belong to triangles. tests/support/least_squares.h computes the weight independently.
 #pragma once
 
 #include <algorithm>
@@ -27,9 +26,8 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * std::clamp(u.dot(v) / std::max(cross(u, v), 1e-300), -1e6, 1e6);
 }
 
-// Returns the factor, in [0, 1], for all half weights of a triangle, of which `stiffest` is the largest. It
-// reduces the largest to at most half of largest_edge_weight, because the weight of an edge is the sum of
-// two half weights.
+// Returns the factor, in [0, 1], for all half weights of a triangle, of which `stiffest` is the largest. It reduces the
+// largest to at most half of largest_edge_weight, because the weight of an edge is the sum of two half weights.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
@@ -42,8 +40,7 @@ inline float edge_weight(float sum, std::span<const float> weights, Index a, Ind
   return weights.empty() ? weight : weight * (weights[a] + weights[b]) / 2;
 }
 
-// Returns the weight of the edge to which the triangle sides `sides` belong. `points` are in view
-// coordinates.
+// Returns the weight of the edge to which the triangle sides `sides` belong. `points` are in view coordinates.
 inline float edge_weight(std::span<const Vec3> points, std::span<const TriangleSide> sides) {
   const auto plane = [&](Index i) { return Vec2(points[i].head<2>()); };
   float sum = 0;

@@ -61,15 +61,13 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and
-  // elasticity predict, and takes secant steps; one or two calls are usually enough. After six secant steps
-  // it brackets u instead. This happens after large changes, and for heights at or above the largest
-  // possible height.
+  // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and elasticity
+  // predict, and takes secant steps; one or two calls are usually enough. After six secant steps it brackets u instead.
+  // This happens after large changes, and for heights at or above the largest possible height.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
-    // Elasticities below this value are rounding errors of single precision, or occur near the
-    // largest height.
+    // Elasticities below this value are rounding errors of single precision, or occur near the largest height.
     constexpr double least_elasticity = .02;
     constexpr SecantStep step;
     double x = last.log_u;

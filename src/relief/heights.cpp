@@ -69,8 +69,7 @@ struct WeightedEdge {
 // The edges of each point, in ascending order of the points at their other ends.
 using Adjacency = Groups<WeightedEdge>;
 
-// Computes the edges of equation (9) and their weights, point by point. Corner i of triangle t has the
-// number 3 t + i.
+// Computes the edges of equation (9) and their weights, point by point. Corner i of triangle t has the number 3 t + i.
 class EdgeRows {
  public:
   EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
@@ -229,8 +228,7 @@ class NormalRows {
   }
 
  private:
-  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), with respect to the height of
-  // each corner.
+  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), with respect to the height of each corner.
   void add_terms(const Triangle& t, Index corner) {
     const Index a = t[corner], b = t[(corner + 1) % 3], c = t[(corner + 2) % 3];
     const Vec2 ab = points_[b] - points_[a], ac = points_[c] - points_[a], bc = points_[c] - points_[b];
@@ -274,8 +272,7 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The coefficients of boundary points are 0. So their right-hand side is 0, and solve() leaves 0 as their
-// height.
+// The coefficients of boundary points are 0. So their right-hand side is 0, and solve() leaves 0 as their height.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

@@ -20,8 +20,7 @@ double weight_of(const std::array<Vec2, 3>& p) {
   return area * needle_share(stiffest);
 }
 
-// The penalty parameter and the over-relaxation of ADMM. With these values, scans took the fewest
-// iterations: 20 to 60.
+// The penalty parameter and the over-relaxation of ADMM. With these values, scans took the fewest iterations: 20 to 60.
 constexpr float penalty = 10, relaxation = 1.7F;
 // Target slopes are shortened to this many times the limit. Otherwise walls at depth jumps, which may be
 // arbitrarily steep, would dominate the least squares.

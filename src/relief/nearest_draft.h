@@ -27,9 +27,8 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes, for each point i, the sum over its triangles of area times (field . gradient of i's hat
-  // function). Boundary points get 0. If the field consists of slopes, the sums are the right-hand
-  // side of equation (9).
+  // Writes, for each point i, the sum over its triangles of area times (field . gradient of i's hat function). Boundary
+  // points get 0. If the field consists of slopes, the sums are the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
@@ -61,9 +60,8 @@ class NearestDraft {
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Changes the heights to those of the nearest relief within the limit. A few triangles stay steeper than
-  // the limit, usually by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then
-  // meaningless.
+  // Changes the heights to those of the nearest relief within the limit. A few triangles stay steeper than the limit,
+  // usually by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {
     begin(heights);

@@ -30,8 +30,7 @@ class PaperRelief {
     model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, solved_);
   }
 
-  // Gives the result of the last solve() to map(), so that the next solve() may run at the same time as
-  // map().
+  // Gives the result of the last solve() to map(), so that the next solve() may run at the same time as map().
   void hand_over() { std::swap(solved_, mapped_); }
 
   // Writes the heights of all visible points, with detail, for the result that hand_over() passed.

@@ -195,8 +195,7 @@ void give_own_heights(const ReliefModel& model, Relief& relief) {
   relief.height = height_span(relief.heights);
 }
 
-// Makes reliefs of one boundary width in two steps: raise(), then finish(). A search for a height needs
-// only raise().
+// Makes reliefs of one boundary width in two steps: raise(), then finish(). A search for a height needs only raise().
 class ReliefModel::Maker {
  public:
   Maker(const ReliefModel& model, const Shape& shape)
@@ -210,9 +209,8 @@ class ReliefModel::Maker {
     input_.attention = attention_;
   }
 
-  // Returns the relief of the shape `asked` before finish(). The steps at depth jumps take the share
-  // Shape::steps of `height`. If no height is given, they take this share of the height that slopes and steps
-  // have together.
+  // Returns the relief of the shape `asked` before finish(). The steps at depth jumps take the share Shape::steps of
+  // `height`. If no height is given, they take this share of the height that slopes and steps have together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);

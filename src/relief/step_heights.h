@@ -41,9 +41,8 @@ struct StepFields {
   static StepFields find(const Surface& surface, const HeightSystem& system);
 };
 
-// Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of
-// the relief's height. Does nothing if the shape has no height correction, because level parts must then
-// stay level.
+// Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of the relief's
+// height. Does nothing if the shape has no height correction, because level parts must then stay level.
 template <typename Real>
 void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z) {
   if (planes.empty() || shape.style != Style::layered || !shape.is_corrected || shape.planes == 0) return;

@@ -25,8 +25,7 @@ double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * along).squaredNorm();
 }
 
-// A polyline, divided into pieces of a few corners. A point is compared only with pieces whose box
-// is near it.
+// A polyline, divided into pieces of a few corners. A point is compared only with pieces whose box is near it.
 class Line {
  public:
   explicit Line(std::span<const Vec3> corners) : corners_(corners) {
@@ -83,8 +82,7 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for each triangle side inside the relief with is_wanted(a, b), unless it crosses a
-// depth jump.
+// Calls f(a, b) for each triangle side inside the relief with is_wanted(a, b), unless it crosses a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
@@ -194,8 +192,7 @@ std::vector<float> turning_of(const Surface& surface) {
   return turning;
 }
 
-// Returns the points of the region that have an edge to a point outside of it. Edges across depth
-// jumps do not count.
+// Returns the points of the region that have an edge to a point outside of it. Edges across depth jumps do not count.
 std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) {
   std::vector<std::uint8_t> is_in(surface.points.size(), 0), is_rim(surface.points.size(), 0);
   for (const Index i : region) is_in[i] = 1;

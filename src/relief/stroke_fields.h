@@ -18,8 +18,7 @@ namespace relievo {
 // mask is empty if the visible surface has no point of the stroke.
 StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke);
 
-// The strokes of a relief on one surface. The surface must outlive this object. `Real` is the type of the
-// heights.
+// The strokes of a relief on one surface. The surface must outlive this object. `Real` is the type of the heights.
 template <typename Real>
 class StrokeFields {
  public:
@@ -38,8 +37,7 @@ class StrokeFields {
   void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
-  // A factor for one point: this share of the detail that the stroke's blur removes is added to the
-  // point's height.
+  // A factor for one point: this share of the detail that the stroke's blur removes is added to the point's height.
   struct Share {
     Index at;  // index in changed_
     Real share;

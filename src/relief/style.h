@@ -59,9 +59,8 @@ struct RaisedHeights {
 // into very large changes of slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order. slope() is called for every point, with the w_k of weighted(). Equation
-// (9) is solved, which gives the heights. raise() determines the relief's height. If this is the requested
-// height, finish() is called.
+// A style is used in this order. slope() is called for every point, with the w_k of weighted(). Equation (9) is solved,
+// which gives the heights. raise() determines the relief's height. If this is the requested height, finish() is called.
 
 // Implements equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which
 // adds detail in proportion to the curvature.

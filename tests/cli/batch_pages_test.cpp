@@ -52,8 +52,7 @@ TEST(ContactSheet, HasAPlaceForEachTile) {
   EXPECT_EQ(dark, 7U * 20 * 20 * 3);
 }
 
-// Returns the number of pixels that have the given colour. Fails if one of them is outside the given
-// columns and rows.
+// Returns the number of pixels that have the given colour. Fails if one of them is outside the given columns and rows.
 int count_within(const Image8& image, int left, int right, int top, int bottom) {
   int count = 0;
   for (int y = 0; y < image.height; ++y)

@@ -93,8 +93,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// A second run keeps finished outputs. It repeats killed jobs, but not failed jobs, whose errors would
-// occur again.
+// A second run keeps finished outputs. It repeats killed jobs, but not failed jobs, whose errors would occur again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));

@@ -70,8 +70,7 @@ TEST_F(CliHeightMaps, OfTheReliefAloneHaveNeitherMarginNorRim) {
                      relief = map("--pixel 0.25 --heightmap-area relief", "h.tif");
   EXPECT_EQ(plate.height, 320);
   EXPECT_NEAR(relief.height, (80 - 2 * 4 - 2 * 5) * 4, 4);  // the plate without rim and margin
-  // The relief is at the centre of the plate. So the map of the relief agrees with the central part of
-  // the plate's map.
+  // The relief is at the centre of the plate. So the map of the relief agrees with the central part of the plate's map.
   const int left = (plate.width - relief.width) / 2, top = (plate.height - relief.height) / 2;
   double difference = 0;
   for (int y = 0; y < relief.height; ++y)

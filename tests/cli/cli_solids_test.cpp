@@ -108,8 +108,7 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   }
 }
 
-// The bent ground is as long along its arc as the flat plate. The chord of this arc is the width of
-// the bent solid.
+// The bent ground is as long along its arc as the flat plate. The chord of this arc is the width of the bent solid.
 TEST_F(CliSolids, TellsHowWideASphereLeavesTheGround) {
   const Outcome made =
       run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");

@@ -1,5 +1,4 @@
-// Tests inputs on a disk: buffers beside a glTF file, meshes that are read in parts, and names with
-// control characters.
+// Tests inputs on a disk: buffers beside a glTF file, meshes that are read in parts, and names with control characters.
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
@@ -52,8 +51,7 @@ TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   EXPECT_EQ(line_of(run("info s.json").out, "from"), "0, 0, 50");
 }
 
-// A small ball beside a button is left out, and so is noise. The remark about each names the option that
-// keeps it.
+// A small ball beside a button is left out, and so is noise. The remark about each names the option that keeps it.
 TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
   const Cloud crumb = moved(sphere(200, .03), {1.6, 0, 0});
   write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));

@@ -1,6 +1,5 @@
-// Fuzz target of the studio's requests, without HTTP. The first byte chooses an action; the rest is the body
-// of the request. One document is open, and pictures and exports are small. Every answer must be one that
-// the page can show.
+// Fuzz target of the studio's requests, without HTTP. The first byte chooses an action; the rest is the body of the
+// request. One document is open, and pictures and exports are small. Every answer must be one that the page can show.
 #include <algorithm>
 #include <array>
 #include <chrono>

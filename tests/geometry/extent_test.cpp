@@ -22,8 +22,7 @@ TEST(Weld, FindsTheFirstOfCoincidentPoints) {
   EXPECT_TRUE(first_coincident({}).empty());
 }
 
-// Returns random points of a coarse lattice. Many of them coincide, and coordinates that are zero
-// may be 0 or -0.
+// Returns random points of a coarse lattice. Many of them coincide, and coordinates that are zero may be 0 or -0.
 std::vector<Vec3> lattice_points(std::size_t n) {
   std::mt19937 random(5);
   std::vector<Vec3> points(n);

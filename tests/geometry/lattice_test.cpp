@@ -12,8 +12,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Random points in a square of side 2, and a lattice over them. Two of every three points count for
-// the lattice.
+// Random points in a square of side 2, and a lattice over them. Two of every three points count for the lattice.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());

@@ -40,8 +40,7 @@ double rise_of(const Needles& needles) {
 }
 
 Needles stored(Needles needles) {
-  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it
-  // vectorises.
+  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
   std::vector<Vec3f> points;
   for (const Vec3& p : needles.points) points.push_back(p.cast<float>());
   for (std::size_t i = 0; i < 4; ++i) needles.points[i] = points[i].cast<double>();
@@ -100,9 +99,8 @@ TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   }
 }
 
-// Returns two needles that share a short edge, with slopes up to `most` before rounding. The edge is 20 to
-// 200 times as long as the spacing of single-precision numbers there. The needles are 10 to 100 times as
-// long as the edge.
+// Returns two needles that share a short edge, with slopes up to `most` before rounding. The edge is 20 to 200 times as
+// long as the spacing of single-precision numbers there. The needles are 10 to 100 times as long as the edge.
 Needles random_needles(test::Random& random, double most) {
   const double edge = std::exp(random.uniform(std::log(4e-5), std::log(4e-4))),
                turn = random.uniform(0, 2 * std::numbers::pi);

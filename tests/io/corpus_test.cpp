@@ -366,8 +366,7 @@ TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
     const auto image = depths_at(depth / cat("flower-minisblack-", bits < 10 ? "0" : "", bits, ".tif"));
     if (!image) continue;  // not every width is in the corpus
     ASSERT_EQ(image->values.size(), finest->values.size());
-    // Pictures of more than 16 bits were made from pictures of 8 bits, so their values are as
-    // coarse as 8 bits.
+    // Pictures of more than 16 bits were made from pictures of 8 bits, so their values are as coarse as 8 bits.
     const double most = std::exp2(bits) - 1, coarsest = bits > 16 ? 1 / 255. : 1 / most;
     for (std::size_t i = 0; i < image->values.size(); ++i)
       ASSERT_NEAR(static_cast<double>(image->values[i]) / most,

@@ -14,9 +14,8 @@
 #include "support/read_text.h"
 #include "support/results.h"
 
-// The size in bytes of the largest allocation. The malloc() below measures it: it replaces the system's
-// malloc() in the test program and its libraries. Sanitizers have their own malloc(), so nothing is
-// measured in their builds.
+// The size in bytes of the largest allocation. The malloc() below measures it: it replaces the system's malloc() in the
+// test program and its libraries. Sanitizers have their own malloc(), so nothing is measured in their builds.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -144,8 +144,7 @@ TEST(DepthPnm, SaysWhatIsWrong) {
   EXPECT_FALSE(is_picture(bytes_of("P2 10 20 30\nP3 40 50 60\n"))) << "a cloud of named points";
 }
 
-// Returns a BMP with the given number of bits per pixel. The number of bytes in a row must be a
-// multiple of 4.
+// Returns a BMP with the given number of bits per pixel. The number of bytes in a row must be a multiple of 4.
 std::string bmp(int bits, std::int32_t height, const std::string& palette, const std::string& data,
                 std::uint32_t compression = 0) {
   const std::uint32_t pixels = 14 + 40 + static_cast<std::uint32_t>(palette.size());

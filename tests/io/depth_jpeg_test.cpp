@@ -158,8 +158,7 @@ TEST(DepthJpeg, AnyDamagedByteGivesAnAnswer) {
     }
 }
 
-// A picture may be divided into several scans. Decoding each of them takes as much time as decoding
-// a whole picture.
+// A picture may be divided into several scans. Decoding each of them takes as much time as decoding a whole picture.
 TEST(DepthJpeg, HasAHundredScansAtMost) {
   JpegSquares picture = grey_squares();
   picture.is_progressive = true;

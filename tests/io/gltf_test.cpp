@@ -13,8 +13,7 @@
 namespace relievo {
 namespace {
 
-// Reads the glTF text with `files` in the same folder. Adds the names of the files that the reader
-// requests to `asked`.
+// Reads the glTF text with `files` in the same folder. Adds the names of the files that the reader requests to `asked`.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
   return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
@@ -71,8 +70,7 @@ TEST(Gltf, PointsAndLinesBesideTrianglesAreTold) {
                                                     "left out the lines"}));
 }
 
-// The data in a URI are base64 or plain bytes. In both forms any byte may be escaped, so the test
-// escapes some.
+// The data in a URI are base64 or plain bytes. In both forms any byte may be escaped, so the test escapes some.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {

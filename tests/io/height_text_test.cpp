@@ -1,5 +1,4 @@
-// Tests heights in text files: grids of GIS programs, and tables of numbers, which must not be read as
-// clouds.
+// Tests heights in text files: grids of GIS programs, and tables of numbers, which must not be read as clouds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -171,8 +171,7 @@ std::string big(T value) {
   return bytes;
 }
 
-// Returns the tetrahedron as a binary OFF file. `of_vertex` follows each position. The last face has a
-// colour.
+// Returns the tetrahedron as a binary OFF file. `of_vertex` follows each position. The last face has a colour.
 std::string binary_off(const std::string& keyword, const std::string& of_vertex) {
   std::string file = keyword + " BINARY\n" + big(4) + big(4) + big(6);
   for (const Vec3& p : tetrahedron_points) {

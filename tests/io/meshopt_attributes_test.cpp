@@ -15,8 +15,7 @@ namespace {
 
 using namespace io;
 
-// Returns the four bytes by which version 1 stores the difference of two numbers, in a channel of mode
-// `mode`.
+// Returns the four bytes by which version 1 stores the difference of two numbers, in a channel of mode `mode`.
 std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std::uint32_t now) {
   std::uint32_t stored = std::rotr(before ^ now, static_cast<int>(mode >> 4));
   if (mode < 2) {

@@ -37,8 +37,7 @@ void expect_covered(const Polygon& polygon, const char* what) {
   EXPECT_NEAR(sum, 1, 1e-5) << what;
 }
 
-// Expects that a polygon in a tilted plane is covered, whichever corner comes first, and in both
-// orientations.
+// Expects that a polygon in a tilted plane is covered, whichever corner comes first, and in both orientations.
 void expect_covered_in_every_way(Polygon polygon, const char* what) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond(.3, -.5, .7, .2).normalized();
   for (Vec3& p : polygon) p = turn * p + Vec3(300, -20, 7);

@@ -201,10 +201,9 @@ TEST(StreamFront, ReadsLas) {
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // The cloud has no normals. So if no front point of the sphere falls into a cell of the grid, the cell
-  // shows points of the back. Near the centre of the sphere a cell has about 5 front points on average, so
-  // a share exp(-5) of the cells there has none. The search for visible points in make_relief() removes the
-  // points of the back.
+  // The cloud has no normals. So if no front point of the sphere falls into a cell of the grid, the cell shows points
+  // of the back. Near the centre of the sphere a cell has about 5 front points on average, so a share exp(-5) of the
+  // cells there has none. The search for visible points in make_relief() removes the points of the back.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 

@@ -113,8 +113,7 @@ TEST(TiffDirectory, ConvertsDegreesAtTheMiddleRow) {
   EXPECT_NEAR(size.y(), .5 * 111195, 1);
 }
 
-// Returns a file with both pictures. The directory of the first picture refers to the directory of
-// the second.
+// Returns a file with both pictures. The directory of the first picture refers to the directory of the second.
 std::string two_pictures(std::string first, const std::string& second) {
   const std::size_t end_of_tags = 10 + 12 * 10, begin = first.size();
   first = patched(first, end_of_tags, static_cast<std::uint32_t>(begin));

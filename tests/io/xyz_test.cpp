@@ -85,8 +85,7 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
   EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
 }
 
-// The colour of each point is a function of the point's position. So a wrong row, column or scale would be
-// noticed.
+// The colour of each point is a function of the point's position. So a wrong row, column or scale would be noticed.
 TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
   std::string bytes, fractions, words;
   std::vector<Colour> expected;
@@ -192,8 +191,7 @@ TEST(Xyz, RowAndColumnOfAScannerAreNoCoordinates) {
     EXPECT_EQ(file.cloud.colours, plain.cloud.colours) << after;
     EXPECT_TRUE(file.format.ends_with(" after row and column")) << file.format;
   }
-  // Here x and y are integers, and each line ends with a normal or a colour. The integers must be
-  // read as coordinates.
+  // Here x and y are integers, and each line ends with a normal or a colour. The integers must be read as coordinates.
   std::string with_normals, with_colours;
   for (int i = 0; i < 20; ++i) {
     with_normals += cat(i % 5, " ", i / 5, " ", i + .5, " 0.6 0 0.8\n");

@@ -11,8 +11,7 @@
 namespace relievo {
 namespace {
 
-// Returns the area for ornaments of a round plate with radius 30 around (30, 30). Its polygon
-// contains the circle.
+// Returns the area for ornaments of a round plate with radius 30 around (30, 30). Its polygon contains the circle.
 OrnamentFrame coin() {
   OrnamentFrame frame;
   const int n = 720;

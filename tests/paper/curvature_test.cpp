@@ -70,8 +70,7 @@ TEST(PaperCurvature, OfALeaningPlaneIsZero) {
   EXPECT_EQ(k.deviation, 0);
 }
 
-// Computes the derivatives of exp(x y + z) at (1, 2, 0.5) by the rules of jets, and compares them
-// with closed forms.
+// Computes the derivatives of exp(x y + z) at (1, 2, 0.5) by the rules of jets, and compares them with closed forms.
 TEST(PaperJets, FollowTheRulesOfDerivatives) {
   const Vec3 p(1, 2, .5);
   const auto coordinate = [&](Eigen::Index i) { return Jet{p[i], Vec3::Unit(i), Mat3::Zero()}; };

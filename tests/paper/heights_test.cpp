@@ -60,8 +60,7 @@ TEST(PaperHeights, AreTheLeastSquaresOfEquation9) {
     EXPECT_NEAR(heights[i], expected(static_cast<Eigen::Index>(i)), 1e-5);
 }
 
-// There are two distant clusters of points. One of them has no boundary point, so its first point gets
-// height 0.
+// There are two distant clusters of points. One of them has no boundary point, so its first point gets height 0.
 TEST(PaperHeights, AreDefiniteWithoutBoundary) {
   std::vector<Vec2> points = random_points(40);
   for (std::size_t i = 20; i < 40; ++i) points[i].x() += 100;

@@ -54,9 +54,8 @@ TEST(PaperMapping, CarriesASmoothRatio) {
   EXPECT_LT(std::sqrt(sum), .02);
 }
 
-// Because the ratio is undefined at z0 = 0, it is multiplied by z0^2 / (z0^2 + f^2), where f is 2 % of the
-// largest height. So the result must be 0 wherever z0 is 0, and must nowhere be wrong by more than 10 % of
-// the largest height.
+// Because the ratio is undefined at z0 = 0, it is multiplied by z0^2 / (z0^2 + f^2), where f is 2 % of the largest
+// height. So the result must be 0 wherever z0 is 0, and must nowhere be wrong by more than 10 % of the largest height.
 TEST(PaperMapping, PassesZeroWhereTheUncompressedHeightsDo) {
   const Mapped m;
   const auto slope = [](const Vec2& p) { return static_cast<float>(p.x() - .5); };

@@ -255,9 +255,8 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
   }
 }
 
-// Shadows are computed in the front view, in which the sides of a half cylinder are seen almost edge on.
-// Strips along both edges, each 2 % of the width, are tilted by 74 degrees or more. So these strips have no
-// shadows.
+// Shadows are computed in the front view, in which the sides of a half cylinder are seen almost edge on. Strips along
+// both edges, each 2 % of the width, are tilted by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
   ReliefOptions options;
   options.height_mm = 4;

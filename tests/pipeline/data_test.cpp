@@ -61,8 +61,7 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
   EXPECT_GT(made.report.visible_points, .2 * static_cast<double>(file.cloud.size()));
-  // Only two of these scans show a table. Statues on plinths, busts, and depth images of single figures
-  // show none.
+  // Only two of these scans show a table. Statues on plinths, busts, and depth images of single figures show none.
   const bool has_table =
       path.filename() == "kinect_milk_table.pcd" || path.filename() == "figurines_scene.pcd";
   EXPECT_EQ(made.report.plane.has_value(), has_table);

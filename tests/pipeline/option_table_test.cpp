@@ -70,8 +70,7 @@ TEST(ParseOptions, EachBecomesItsValue) {
   EXPECT_EQ(others->outline, Outline::circle);
 }
 
-// Returns whether every text is a valid value of the option. Such values are texts to be set, and
-// names of files.
+// Returns whether every text is a valid value of the option. Such values are texts to be set, and names of files.
 bool is_any_text(const OptionRow& option) {
   return option.name == "text" || option.name == "font" || option.name == "ornaments";
 }
@@ -140,8 +139,7 @@ TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
   }
 }
 
-// Every number in NumericOptions must have a row in the table, so that all numbers that users set are
-// checked.
+// Every number in NumericOptions must have a row in the table, so that all numbers that users set are checked.
 TEST(OptionTable, HasARowForEachNumber) {
   std::size_t bytes = 0;
   for (const OptionRow& option : option_table()) {

@@ -24,8 +24,7 @@ Cloud two_buttons(std::size_t n) {
                       test::button(n / 5, face / 2, rounding / 2, .5));
 }
 
-// Returns the angles in degrees between neighbouring facets of the front. The silhouette and the jump do not
-// count.
+// Returns the angles in degrees between neighbouring facets of the front. The silhouette and the jump do not count.
 std::vector<double> facet_angles(const Solid& solid, double rho_mm) {
   const auto normal = [&](std::size_t t) -> Vec3 {
     const auto& [a, b, c] = solid.triangles[t];
@@ -77,11 +76,10 @@ struct FacetBounds {
 
 class SmoothSolid : public testing::TestWithParam<FacetBounds> {};
 
-// The bounds are not smaller for three reasons. At the small button's edge, the normal turns from one point
-// to the next, by 14 degrees if there are 20,000 points, and by 3 degrees if there are 250,000. The step at
-// the jump has the requested height, which differs from the height that the slopes beside the jump give, so
-// the rows next to the jump bend. A wide boundary weight bends the surface by 13 degrees along the whole
-// silhouette.
+// The bounds are not smaller for three reasons. At the small button's edge, the normal turns from one point to the
+// next, by 14 degrees if there are 20,000 points, and by 3 degrees if there are 250,000. The step at the jump has the
+// requested height, which differs from the height that the slopes beside the jump give, so the rows next to the jump
+// bend. A wide boundary weight bends the surface by 13 degrees along the whole silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);

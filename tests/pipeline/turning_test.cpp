@@ -52,8 +52,7 @@ ShownModel prepared(const MeasuredCloud& measured, const View& view) {
   return {std::make_shared<const ReliefModel>(std::move(model))};
 }
 
-// Similarities of the picture of a turned relief with the picture of the relief of all points in the same
-// view.
+// Similarities of the picture of a turned relief with the picture of the relief of all points in the same view.
 struct Similarities {
   double turned = 0;  // with the height correction of another view
   double first = 0;   // without an earlier model, as after opening a scan
@@ -92,8 +91,7 @@ TEST(Turntable, LooksLikeTheFullRelief) {
   EXPECT_GT(found.first, .9);
 }
 
-// Differences of less than half a cell would not be visible. Still, the same call must always give the
-// same relief.
+// Differences of less than half a cell would not be visible. Still, the same call must always give the same relief.
 TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
   const Turntable table(*measured);

@@ -83,8 +83,7 @@ TEST(Ornaments, AddTheVolumeOfTheirShapes) {
   const double frustum = .5 / 3 * (low + high + std::sqrt(low * high));
   const double without = volume_mm3(plate_of(figure(), coin({})));
   EXPECT_NEAR(volume_mm3(plate_of(figure(), options)) - without, frustum, 1e-4);
-  // A sunk drawing removes the volume that a raised one adds, and the plate is thicker by the
-  // drawing's depth.
+  // A sunk drawing removes the volume that a raised one adds, and the plate is thicker by the drawing's depth.
   options.ornaments[0].height_mm = -.5;
   const Solid sunk = plate_of(figure(), options);
   EXPECT_EQ(check_solid(sunk), "");

@@ -92,8 +92,7 @@ double worst_of(const std::vector<Vec2>& polygon, Off off) {
   return worst;
 }
 
-// An earlier version made polygons that were too coarse: that of a coin of 30 mm had 88 sides and
-// was 30.019 mm wide.
+// An earlier version made polygons that were too coarse: that of a coin of 30 mm had 88 sides and was 30.019 mm wide.
 TEST(OutlineAround, ACirclesPolygonLiesWithinAMicrometreOfIt) {
   for (const double diameter : {1., 30., 80., 900.}) {
     const std::vector<Vec2> point = {{70, -3}};
@@ -195,8 +194,7 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   }
 }
 
-// Returns a grid of squares. The squares that `rows` marks with '#' belong to the relief. The heights do
-// not matter.
+// Returns a grid of squares. The squares that `rows` marks with '#' belong to the relief. The heights do not matter.
 HeightFieldMesh patches(const std::vector<std::string>& rows) {
   const int n = static_cast<int>(rows.size());
   HeightFieldMesh front =
@@ -304,9 +302,8 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
   EXPECT_NEAR(flat_area(simpler.solid), flat_area(full.solid), 1e-6);
 }
 
-// At the relief's edge, only half of a cell may belong to the relief. The corners of a cell lie on a
-// circle, so the Delaunay triangulation may divide the cell along its other diagonal. That moves the
-// silhouette by half a cell.
+// At the relief's edge, only half of a cell may belong to the relief. The corners of a cell lie on a circle, so the
+// Delaunay triangulation may divide the cell along its other diagonal. That moves the silhouette by half a cell.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
   HeightFieldMesh front =

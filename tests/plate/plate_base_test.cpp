@@ -52,8 +52,7 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
   return options;
 }
 
-// Calls f at seven points of each triangle of the front: its corners, the midpoints of its sides, and one
-// inside.
+// Calls f at seven points of each triangle of the front: its corners, the midpoints of its sides, and one inside.
 void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     const auto& [a, b, c] = solid.triangles[t];
@@ -64,8 +63,7 @@ void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   }
 }
 
-// Finds heights of a plate's front. Each cell of a grid lists the triangles whose bounding boxes
-// meet the cell.
+// Finds heights of a plate's front. Each cell of a grid lists the triangles whose bounding boxes meet the cell.
 class Heights {
  public:
   explicit Heights(const Solid& solid) : solid_(solid), cells_(80 * 80) {
@@ -203,8 +201,7 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
-      // Each surface may bend between the points of the other one, so they are compared at the points of
-      // both.
+      // Each surface may bend between the points of the other one, so they are compared at the points of both.
       double worst = 0;
       for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
         const Heights heights(*other);

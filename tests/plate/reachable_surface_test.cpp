@@ -12,8 +12,7 @@ namespace {
 
 const Tool ball_end{Tool::Kind::ball, 2};
 
-// Returns a block of 20 x 10 mm, 3 mm high. Its walls are as steep as the grid allows, and it has a pit
-// at its centre.
+// Returns a block of 20 x 10 mm, 3 mm high. Its walls are as steep as the grid allows, and it has a pit at its centre.
 HeightFieldMesh block() {
   return test::grid_front({40, 20, 160, 80}, [&](double x, double y) {
     const bool is_pit = std::abs(x - 20) < 1 && std::abs(y - 10) < 1;

@@ -38,8 +38,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// If the facet angle is 0.01, a cell of the sampling grid gets one sample; if it is 0.004, the cell
-// gets four.
+// If the facet angle is 0.01, a cell of the sampling grid gets one sample; if it is 0.004, the cell gets four.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();

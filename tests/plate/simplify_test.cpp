@@ -99,9 +99,8 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   EXPECT_NEAR(simpler.error_mm, largest, 1e-9);
 }
 
-// All points of this front are needed. The corners of a cell lie on a circle, so a Delaunay triangulation may
-// use the other diagonal of the cell. With the other diagonals, simplify() would need more triangles than the
-// front has.
+// All points of this front are needed. The corners of a cell lie on a circle, so a Delaunay triangulation may use the
+// other diagonal of the cell. With the other diagonals, simplify() would need more triangles than the front has.
 TEST(Simplify, NeverAddsTriangles) {
   const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });

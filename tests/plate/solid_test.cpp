@@ -184,8 +184,7 @@ TEST(CheckSolid, NamesWhatIsBroken) {
 }
 
 TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
-  // The solid consists of the same closed body twice, once of it inside out. So each edge belongs to four
-  // triangles.
+  // The solid consists of the same closed body twice, once of it inside out. So each edge belongs to four triangles.
   Solid solid = bumpy_plate();
   const std::vector<Triangle> once = solid.triangles;
   for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});

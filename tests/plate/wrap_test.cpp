@@ -138,8 +138,7 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// The front and the back of the shell must have their radii everywhere, even between the corners of
-// triangles.
+// The front and the back of the shell must have their radii everywhere, even between the corners of triangles.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
   const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");

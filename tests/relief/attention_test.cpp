@@ -124,8 +124,7 @@ TEST(AttentionWeights, StayBetweenNothingAndAll) {
   }
 }
 
-// Returns the root mean square of the finest layer of the relief's slopes, at the points for which
-// `is_there` is true.
+// Returns the root mean square of the finest layer of the relief's slopes, at the points for which `is_there` is true.
 template <typename IsThere>
 double contrast(const Surface& surface, std::span<const double> heights, IsThere&& is_there) {
   const std::vector<float> z(heights.begin(), heights.end());

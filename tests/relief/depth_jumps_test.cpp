@@ -54,8 +54,7 @@ Steps steps_of(const Surface& surface, const Relief& relief) {
   return {sum / edges, most, inverted / edges};
 }
 
-// A jump leaves only a height difference between neighbouring points, which decreases as the points
-// become denser.
+// A jump leaves only a height difference between neighbouring points, which decreases as the points become denser.
 TEST(DepthJumps, VanishByThePapersMethod) {
   const View view = View().for_paper();
   const auto steps_in = [&](const Cloud& cloud) {

@@ -101,8 +101,7 @@ TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   EXPECT_EQ(limited->heights, free->heights);
 }
 
-// If a cone is steeper than the limit, the nearest relief within the limit is the cone whose slope
-// is the limit.
+// If a cone is steeper than the limit, the nearest relief within the limit is the cone whose slope is the limit.
 TEST(Draft, ACone) {
   const ReliefModel model = prepared(test::sheet(20000, 1, 0));
   const auto cone = [](double slope) {
@@ -327,8 +326,7 @@ TEST(SteepestSlope, OfARampAndOfAWall) {
   EXPECT_TRUE(std::isinf(steepest_slope(solid)));
 }
 
-// The points are so dense, and so far from the origin, that rounding to single precision makes thin triangles
-// steeper.
+// The points are so dense, and so far from the origin, that rounding to single precision makes thin triangles steeper.
 TEST(HoldDraft, TakesWhatRoundingAdds) {
   ASSERT_TRUE(rc::check([] {
     test::Random random(*rc::gen::arbitrary<std::uint64_t>());

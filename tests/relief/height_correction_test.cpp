@@ -145,8 +145,7 @@ TEST(HeightCorrection, IsProportionalToHeights) {
   for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(twice[i], 2 * z[i], 1e-6);
 }
 
-// Ripples finer than the lattice's cells do not change the correction, so the corrected heights must still
-// have them.
+// Ripples finer than the lattice's cells do not change the correction, so the corrected heights must still have them.
 TEST(HeightCorrection, KeepsFineDetail) {
   const Surface surface = bumpy();
   const std::vector<double> plain = depths(surface);
@@ -178,8 +177,7 @@ TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
     ASSERT_NEAR(height, .05, 1e-4);
 }
 
-// At the silhouette, the field must rise to about the share `planes` of the height, even if all heights
-// are 0.
+// At the silhouette, the field must rise to about the share `planes` of the height, even if all heights are 0.
 TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface);
@@ -199,8 +197,7 @@ TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   }
 }
 
-// The correction lifts the nearer sheet. It must bend at the depth jump where this sheet ends, and hardly
-// elsewhere.
+// The correction lifts the nearer sheet. It must bend at the depth jump where this sheet ends, and hardly elsewhere.
 TEST(HeightCorrection, IsHingedAtJumps) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);

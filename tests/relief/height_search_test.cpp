@@ -5,8 +5,7 @@
 namespace relievo {
 namespace {
 
-// Returns the height 5 (1 - exp(-u)), and counts the calls. This function grows with u as the height of
-// a relief does.
+// Returns the height 5 (1 - exp(-u)), and counts the calls. This function grows with u as the height of a relief does.
 struct Growth {
   double last = 0;  // the height at the last call
   int calls = 0;

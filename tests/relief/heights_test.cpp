@@ -157,9 +157,8 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// The memory of a matrix does not include a pattern that the matrix shares with another one. So smaller
-// memory proves that the pattern is shared. Boundary points have no unknown. The test puts them first,
-// and then last.
+// The memory of a matrix does not include a pattern that the matrix shares with another one. So smaller memory proves
+// that the pattern is shared. Boundary points have no unknown. The test puts them first, and then last.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

@@ -61,8 +61,7 @@ TEST(Relief, RisesWithU) {
 
 using StyleShareBeta = std::tuple<Style, double, double>;
 
-// Returns a name for a case. It states the style, the height in millionths of the diagonal, and
-// beta in hundredths.
+// Returns a name for a case. It states the style, the height in millionths of the diagonal, and beta in hundredths.
 std::string name_of(const testing::TestParamInfo<StyleShareBeta>& test) {
   const auto [style, share, beta] = test.param;
   return cat(style == Style::paper_weights ? "Paper" : "Layered", "_Share", std::lround(share * 1e6),
@@ -195,8 +194,7 @@ TEST(Relief, DoesNotChangeWithTheOrderOfThePoints) {
   EXPECT_EQ(model.make(shape).heights, reversed.make(shape).heights);
 }
 
-// All coordinates are multiples of 2^-20. So the shift is exact, and rounding cannot change which points are
-// visible.
+// All coordinates are multiples of 2^-20. So the shift is exact, and rounding cannot change which points are visible.
 TEST(Relief, DoesNotChangeWithTheOrigin) {
   Cloud cloud = bumps_behind_a_ring();
   for (Vec3& p : cloud.points) p = (p * 0x1p20).array().round() * 0x1p-20;

@@ -45,8 +45,7 @@ std::vector<double> protect(const Surface& surface, const Stroke& stroke, const 
   return z;
 }
 
-// Under a protected stroke, the heights may differ from the heights before the correction only by a
-// linear function.
+// Under a protected stroke, the heights may differ from the heights before the correction only by a linear function.
 TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);

@@ -115,8 +115,7 @@ int crossings(const field::Solid& solid, Vec3 p) {
   return count;
 }
 
-// Casts rays through the solid. Returns, for each cell, the number of crossings in it as a fraction
-// of all crossings.
+// Casts rays through the solid. Returns, for each cell, the number of crossings in it as a fraction of all crossings.
 std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane) {
   const std::size_t side = 120;
   std::vector<int> counts(side * side);

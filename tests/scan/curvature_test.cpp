@@ -160,8 +160,7 @@ TEST(Curvature, EndsEarlyWhenCancelled) {
             (std::vector<double>{0, 0, 0}));
 }
 
-// A triangular lattice in the view plane. Its rho is 1: the area per point is 1. All normals point to the
-// viewer.
+// A triangular lattice in the view plane. Its rho is 1: the area per point is 1. All normals point to the viewer.
 struct Lattice {
   static constexpr Index side = 31, middle = side * side / 2;
   static constexpr double spacing_sq = 2 * std::numbers::inv_sqrt3;
@@ -190,9 +189,8 @@ struct Lattice {
   }
 };
 
-// One pass gives each of the six neighbours, at distance a, the weight w = exp(-a^2 / rho^2); the point
-// itself has weight 1. So the mean square distance after one pass is 6 w a^2 / (1 + 6 w). Three passes
-// triple it.
+// One pass gives each of the six neighbours, at distance a, the weight w = exp(-a^2 / rho^2); the point itself has
+// weight 1. So the mean square distance after one pass is 6 w a^2 / (1 + 6 w). Three passes triple it.
 TEST(AverageInPlane, SpreadsAValueByTheWidthOfThreePasses) {
   const Lattice lattice;
   const std::vector<double> spread = lattice.spread_from_the_middle();
@@ -211,8 +209,7 @@ TEST(AverageInPlane, KeepsWhatIsTheSameEverywhere) {
     EXPECT_NEAR(k, -.7, 1e-12);
 }
 
-// At a depth jump, the values of two surfaces alternate at random, because their points are mixed
-// in the view.
+// At a depth jump, the values of two surfaces alternate at random, because their points are mixed in the view.
 TEST(AverageInPlane, LevelsValuesThatAlternate) {
   test::Random random(3);
   const Lattice lattice;

@@ -162,8 +162,7 @@ TEST(DepthConventions, EveryPixelHasItsUse) {
     }
 }
 
-// The depths are stored in steps of 10 mm. A tooth, a strip one pixel wide, stands on the upper
-// side of the figure.
+// The depths are stored in steps of 10 mm. A tooth, a strip one pixel wide, stands on the upper side of the figure.
 TEST(DepthConventions, TeethHaveTheUseOfBlur) {
   DepthImage image{filled_image(120, 90, 0.F), 1, "test"};
   for (int r = 20; r < 90; ++r)

@@ -87,8 +87,7 @@ TEST(InnerLines, AreNotOnSmoothSurfaces) {
   }
 }
 
-// A jump becomes lower along its edge and ends inside the surface. Its wall must continue until the
-// step is gone.
+// A jump becomes lower along its edge and ends inside the surface. Its wall must continue until the step is gone.
 TEST(InnerLines, ContinueAJumpToItsEnd) {
   const auto step = [](double y) { return std::max(0.0, .3 * (y + .5)); };
   const Cloud flap = test::height_field(
@@ -101,8 +100,7 @@ TEST(InnerLines, ContinueAJumpToItsEnd) {
     const Vec2 at = (surface.points[i] + surface.centre).head<2>();
     if (surface.boundary.wall_side[i] == WallSide::none || at.cwiseAbs().maxCoeff() > .9 * half) continue;
     lowest = std::min(lowest, at.y());
-    // Points behind the edge are hidden up to a distance of 2 rho. So the curve lies slightly behind the
-    // edge.
+    // Points behind the edge are hidden up to a distance of 2 rho. So the curve lies slightly behind the edge.
     near += at.x() > -2 * surface.rho && at.x() < .6 * surface.rho, ++count;
   }
   EXPECT_GT(near, .9 * count);

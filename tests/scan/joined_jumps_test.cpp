@@ -58,8 +58,7 @@ TEST(JoinedJumps, StayApartUnlessTheyContinueEachOther) {
   EXPECT_EQ(count_after_joining(silhouettes), 2) << "no jumps";
 }
 
-// Three pieces of a ring must be joined to one line. The two ends of this line must not be joined to
-// each other.
+// Three pieces of a ring must be joined to one line. The two ends of this line must not be joined to each other.
 TEST(JoinedJumps, LeaveARingOpenAtOnePlace) {
   constexpr int pieces = 3;
   std::vector<OutlineCurve> outlines;

@@ -131,8 +131,7 @@ TEST(Scatter, IsEvenByAreaOnAllSides) {
 }
 
 TEST(SmoothNormals, StopAtCreases) {
-  // Returns two squares with a common edge. The second square is rotated by `degrees` out of the plane of the
-  // first.
+  // Returns two squares with a common edge. The second square is rotated by `degrees` out of the plane of the first.
   const auto bent = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;
     return Mesh{{{0, 0, 0},

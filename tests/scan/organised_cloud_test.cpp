@@ -117,8 +117,7 @@ TEST(SmoothOrganised, LeavesPointsThatAreNoPictureAsTheyAre) {
   }
 }
 
-// Pictures of disparities have blurred outlines. Points of the blur must be removed, unless the option keeps
-// them.
+// Pictures of disparities have blurred outlines. Points of the blur must be removed, unless the option keeps them.
 TEST(SmoothOrganised, TakesOutBlurUnlessItIsKept) {
   OrganisedCloud scan{{}, width};
   for (std::size_t i = 0; i < width * height; ++i) {

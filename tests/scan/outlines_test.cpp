@@ -140,8 +140,7 @@ TEST(Outlines, LeaveNoGapInside) {
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
-  // A second sheet covers the first sheet except for a narrow strip, in which there is at most one row of
-  // points.
+  // A second sheet covers the first sheet except for a narrow strip, in which there is at most one row of points.
   for (const double width : {.3, .6, 1.}) {
     Cloud cloud = jittered_square(200, 1);
     const double rho = surface_of(cloud).rho;

@@ -54,9 +54,8 @@ TEST(Surface, RefusesACloudThatFacesAway) {
   EXPECT_TRUE(message.contains("--view back or --view auto")) << message;
 }
 
-// A camera at the origin has scanned the near half of a ball, and a little of the far half. The camera's y
-// axis points down, its z axis away from the viewer. In the front view, only points of the far half would be
-// visible.
+// A camera at the origin has scanned the near half of a ball, and a little of the far half. The camera's y axis points
+// down, its z axis away from the viewer. In the front view, only points of the far half would be visible.
 TEST(Surface, NamesTheSideThatWasScanned) {
   const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
   Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);

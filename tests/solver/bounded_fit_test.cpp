@@ -25,8 +25,7 @@ Matrix dense(const Eigen::SparseMatrix<double>& lower) {
   return Matrix(lower).selfadjointView<Eigen::Lower>();
 }
 
-// Returns a problem on a jittered grid. The bounds lie between the extremes of the unbounded solution,
-// so they matter.
+// Returns a problem on a jittered grid. The bounds lie between the extremes of the unbounded solution, so they matter.
 BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   test::PlanarSystem system = test::jittered_grid(width, height, seed);
   const int n = width * height;
@@ -38,8 +37,7 @@ BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   return fit;
 }
 
-// The energy 1/2 x^T H x - f^T x of a problem, with dense matrices. For a plate, the constant term is left
-// out.
+// The energy 1/2 x^T H x - f^T x of a problem, with dense matrices. For a plate, the constant term is left out.
 struct DenseEnergy {
   Matrix H;
   Vector f;
@@ -54,9 +52,8 @@ struct DenseEnergy {
   double operator()(const Vector& x) const { return x.dot(H * x) / 2 - f.dot(x); }
 };
 
-// Returns the solution for one choice of active bounds, if it satisfies the Karush-Kuhn-Tucker conditions.
-// The base-3 digits of `choice` say for each unknown whether it is free, at its lower bound or at its upper
-// bound.
+// Returns the solution for one choice of active bounds, if it satisfies the Karush-Kuhn-Tucker conditions. The base-3
+// digits of `choice` say for each unknown whether it is free, at its lower bound or at its upper bound.
 std::optional<Vector> solution_for(const BoundedFit& fit, const DenseEnergy& energy, int choice) {
   const auto n = static_cast<int>(fit.load.size());
   Matrix K = Matrix::Identity(n, n);

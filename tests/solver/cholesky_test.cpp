@@ -18,9 +18,8 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Counts all allocations of the test program. Sanitizers replace operator new themselves, so nothing is
-// counted in their builds. The operators are not inlined, because the compiler would then warn that new and
-// free do not match.
+// Counts all allocations of the test program. Sanitizers replace operator new themselves, so nothing is counted in
+// their builds. The operators are not inlined, because the compiler would then warn that new and free do not match.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_COUNTS_ALLOCATIONS
 [[gnu::noinline]] void* operator new(std::size_t bytes) {

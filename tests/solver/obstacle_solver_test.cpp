@@ -129,9 +129,8 @@ std::vector<Tie> slanting_ties(double start, double slope) {
   return ties;
 }
 
-// Without limits, the field with the least energy solves a linear system; this energy is negative. The
-// solver must reach at least the fraction `share` of it. Three quarters of the sweeps would not be
-// enough in any of these cases.
+// Without limits, the field with the least energy solves a linear system; this energy is negative. The solver must
+// reach at least the fraction `share` of it. Three quarters of the sweeps would not be enough in any of these cases.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;

@@ -11,8 +11,7 @@
 namespace relievo::solver {
 namespace {
 
-// Returns a random graph with random positions. The smallest separator must have the same size for any
-// positions.
+// Returns a random graph with random positions. The smallest separator must have the same size for any positions.
 SeparatorBand random_band(Index n, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<std::vector<Index>> nearby(n);

@@ -61,8 +61,7 @@ class CliFolder : public testing::Test {
     fs::remove_all(folder_);
   }
 
-  // Runs `relievo ARGUMENTS` in the test's folder. The text `before` is put before the program's name
-  // in the command.
+  // Runs `relievo ARGUMENTS` in the test's folder. The text `before` is put before the program's name in the command.
   Outcome run(const std::string& arguments, const std::string& before = "") const {
     const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
     const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +

@@ -1,5 +1,4 @@
-// Writes E57 files independently of the library's reader. Tests can choose the columns and damage the
-// contents.
+// Writes E57 files independently of the library's reader. Tests can choose the columns and damage the contents.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,4 @@
-// Makes small valid files of every format, independently of the library's readers. Tests change and damage
-// them.
+// Makes small valid files of every format, independently of the library's readers. Tests change and damage them.
 #pragma once
 
 #include <cstdint>

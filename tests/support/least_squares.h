@@ -13,8 +13,7 @@
 
 namespace relievo::test {
 
-// The points and edges of equation (9), and the weights of the points. If `weights` is empty, all weights
-// are 1.
+// The points and edges of equation (9), and the weights of the points. If `weights` is empty, all weights are 1.
 struct EquationNine {
   std::vector<Vec2> points;
   const Triangulation& mesh;

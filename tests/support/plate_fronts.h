@@ -88,8 +88,7 @@ inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options 
   return value_of(make_plate(front, options));
 }
 
-// Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, rounding leaves all
-// corners convex.
+// Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, rounding leaves all corners convex.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < n; ++i) {
@@ -99,9 +98,8 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
   return polygon;
 }
 
-// Returns the Delaunay triangulation of a square grid of points, rotated by an angle. The heights are z(x,
-// y) inside and 0 on the sides. Because of rounding, the sides are not exactly straight, as in meshes that
-// are sampled on a grid.
+// Returns the Delaunay triangulation of a square grid of points, rotated by an angle. The heights are z(x, y) inside
+// and 0 on the sides. Because of rounding, the sides are not exactly straight, as in meshes that are sampled on a grid.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
   std::vector<Vec3> points;

@@ -1,5 +1,4 @@
-// Reads solids from STL, PLY and OBJ files without the library's readers, to check files that the library
-// writes.
+// Reads solids from STL, PLY and OBJ files without the library's readers, to check files that the library writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -29,8 +28,7 @@ struct ReadSolid {
     return box;
   }
 
-  // Returns the enclosed volume, by the divergence theorem. The volume is positive if the triangles face
-  // outwards.
+  // Returns the enclosed volume, by the divergence theorem. The volume is positive if the triangles face outwards.
   double volume() const {
     double sixfold = 0;
     for (const auto& [a, b, c] : triangles)

@@ -45,8 +45,7 @@ struct RayTriangle {
   Vec2 lowest() const { return a.head<2>() + u.cwiseMin(v).cwiseMin(0).head<2>(); }
   Vec2 highest() const { return a.head<2>() + u.cwiseMax(v).cwiseMax(0).head<2>(); }
 
-  // Returns the third coordinate of pixel() at a position on the triangle; minus infinity outside the
-  // triangle.
+  // Returns the third coordinate of pixel() at a position on the triangle; minus infinity outside the triangle.
   double depth_at(double x, double y) const {
     const double px = x - a.x(), py = y - a.y();
     const double s = (px * v.y() - py * v.x()) / area(), t = (u.x() * py - u.y() * px) / area();
@@ -55,9 +54,8 @@ struct RayTriangle {
   }
 };
 
-// Returns, at the centre of each pixel, the cosine of the angle between the lamp's direction and the
-// surface normal, but at least 0. The cosine is NaN where there is no surface. All triangles are tested,
-// and the nearest counts.
+// Returns, at the centre of each pixel, the cosine of the angle between the lamp's direction and the surface normal,
+// but at least 0. The cosine is NaN where there is no surface. All triangles are tested, and the nearest counts.
 inline Image<double> lamp_cosines(const ReadSolid& solid, const RayCamera& camera, const Vec3& to_lamp) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   Image<double> nearest = filled_image(camera.width, camera.height, -nowhere), cosines = nearest;

@@ -140,8 +140,7 @@ class BoxTree {
   }
 
  private:
-  // The box of a range of at least two triangles is stored at index begin + end. No two such ranges have
-  // the same sum.
+  // The box of a range of at least two triangles is stored at index begin + end. No two such ranges have the same sum.
   static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
 
   void build(std::size_t begin, std::size_t end) {
@@ -183,8 +182,7 @@ inline std::string self_intersections(const Solid& solid) {
   std::vector<BoundedTriangle> triangles;
   std::size_t flat = 0, pairs = 0;
   std::string example;
-  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it
-  // vectorises.
+  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
   std::vector<Vec3f> stored;
   for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
   for (std::size_t i = 0; i < solid.triangles.size(); ++i) {

@@ -136,10 +136,9 @@ inline Cloud joined(Cloud a, const Cloud& b) {
   return a;
 }
 
-// Returns a square in front of a level sheet, tilted by 25 degrees about the y axis. Seen from the front it
-// is 2 * flap_half_width wide. The relief's slopes do not contain the depth between square and sheet. So the
-// centre of the square gets the height of the sheet, and the lower half of the square would be below the
-// sheet.
+// Returns a square in front of a level sheet, tilted by 25 degrees about the y axis. Seen from the front it is 2 *
+// flap_half_width wide. The relief's slopes do not contain the depth between square and sheet. So the centre of the
+// square gets the height of the sheet, and the lower half of the square would be below the sheet.
 inline constexpr double flap_half_width = .5;
 inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1) {
   const double half = flap_half_width / std::cos(25 * std::numbers::pi / 180);

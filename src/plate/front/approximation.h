@@ -36,8 +36,7 @@ class Approximation {
   // triangle `start`.
   Index find(const Vec2& place, Index start) const;
 
-  // Returns the neighbour of t across the edge that contains `place`; no_index if `place` is inside t or on
-  // the hull.
+  // Returns the neighbour of t across the edge that contains `place`; no_index if `place` is inside t or on the hull.
   Index across(const Vec2& place, Index t) const;
 
   double slope_sq(Index t) const;

@@ -62,9 +62,8 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
 
 constexpr int band_rings = 3;  // rings of triangles around creases; they form the band, whose points are kept
 constexpr int most_divisions = 16;
-// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band. Samples of
-// quartered squares need only half of it. `apart_in_band` is the distance between points of the band that
-// are not on creases.
+// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band. Samples of quartered
+// squares need only half of it. `apart_in_band` is the distance between points of the band that are not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 

@@ -108,8 +108,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
   std::vector<Level> levels;
   levels.push_back(cells_of(slopes));
   for (int side = 2; side <= largest_square; side *= 2) {
-    // Slopes are known at the centres of cells. The outermost centres of a square are closer
-    // together than its sides.
+    // Slopes are known at the centres of cells. The outermost centres of a square are closer together than its sides.
     const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
     levels.push_back(joined(levels.back(), reach * facet_angle));
   }

@@ -18,10 +18,9 @@ std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles);
 // Returns the front's triangles that are part of the relief; all triangles if `is_relief` is empty.
 std::vector<Triangle> relief_triangles(const HeightFieldMesh& front);
 
-// Returns, per triangle of the simplified front `simpler`, whether it is part of the relief. `original`
-// gives, for each point of `simpler`, its index in `front`; no_index for new points. `simpler` must contain
-// all points of the relief's boundary. If it lacks an edge of this boundary, the centroids of the triangles
-// decide.
+// Returns, per triangle of the simplified front `simpler`, whether it is part of the relief. `original` gives, for each
+// point of `simpler`, its index in `front`; no_index for new points. `simpler` must contain all points of the relief's
+// boundary. If it lacks an edge of this boundary, the centroids of the triangles decide.
 std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const HeightFieldMesh& simpler,
                                         std::span<const Index> original);
 

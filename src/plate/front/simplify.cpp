@@ -20,9 +20,8 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t grain = 8192;  // points or edges that one task measures
-// The tolerance of triangles that are steeper than allowed. It is smaller than files can store. So such
-// triangles are divided until they are only as steep as the original's triangles, which keep to the slope
-// limit.
+// The tolerance of triangles that are steeper than allowed. It is smaller than files can store. So such triangles are
+// divided until they are only as steep as the original's triangles, which keep to the slope limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A position where a triangle of the approximation exceeds its tolerance. It is a point of the
@@ -150,10 +149,9 @@ class Simplifier {
     worst.resize(count);
   }
 
-  // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and
-  // the extreme heights. Errors are largest at extremes, and the plate's thickness and height must not
-  // change. If all points of the ground's boundary are chosen, the triangulation contains its edges, so
-  // flat ground stays flat.
+  // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and the extreme
+  // heights. Errors are largest at extremes, and the plate's thickness and height must not change. If all points of the
+  // ground's boundary are chosen, the triangulation contains its edges, so flat ground stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -195,8 +193,7 @@ class Simplifier {
     return !points.empty();
   }
 
-  // Measures the changed triangles. Returns the points that lie outside all triangles, because the hull is
-  // rounded.
+  // Measures the changed triangles. Returns the points that lie outside all triangles, because the hull is rounded.
   std::vector<Index> measure() {
     is_changed_.resize(now_.mesh().size(), 1);
     worst_.resize(is_changed_.size());
@@ -286,10 +283,9 @@ class Simplifier {
     });
   }
 
-  // Chooses the point that is added for an error on an edge of the original. The first of these that is not
-  // chosen yet is added: the nearer end, the farther end, the two opposite corners. Once all four are chosen,
-  // the edge is in the Delaunay triangulation, unless the four lie on one circle. In that case the crossing
-  // becomes a new point.
+  // Chooses the point that is added for an error on an edge of the original. The first of these that is not chosen yet
+  // is added: the nearer end, the farther end, the two opposite corners. Once all four are chosen, the edge is in the
+  // Delaunay triangulation, unless the four lie on one circle. In that case the crossing becomes a new point.
   Candidate with_point(Candidate c) const {
     if (c.point != no_index) return c;
     const Edge& edge = edges_[c.edge];

@@ -112,8 +112,7 @@ class Flipper {
 
   bool is_thin(Index t) const { return width_mm(front_.triangles[t]) < thinnest_mm_; }
 
-  // Flips the longest edge of a thin triangle. If that edge is on the front's boundary, removes the
-  // triangle instead.
+  // Flips the longest edge of a thin triangle. If that edge is on the front's boundary, removes the triangle instead.
   void widen(Index thin) {
     const Triangle abc = longest_first(front_.triangles[thin]);
     const Index other = fans_->left_of(abc[1], abc[0]);

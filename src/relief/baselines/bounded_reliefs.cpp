@@ -59,8 +59,7 @@ SheetFit number_points(const Surface& surface, const Sheet& sheet) {
   return result;
 }
 
-// Returns the least-squares problem that fits heights so that each edge rises by rise(a, b) from point
-// b to point a.
+// Returns the least-squares problem that fits heights so that each edge rises by rise(a, b) from point b to point a.
 template <typename Rise>
 SheetFit assemble(const Surface& surface, const Sheet& sheet, Rise&& rise) {
   SheetFit result = number_points(surface, sheet);

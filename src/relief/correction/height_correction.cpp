@@ -16,9 +16,8 @@
 namespace relievo {
 namespace {
 
-// The width of a lattice cell is `cell_size` of the longer side, but at least `least_cell_size` sampling
-// distances. `cell_size` is a seventh of the bending length, so that the lattice can represent fields that
-// bend over this length.
+// The width of a lattice cell is `cell_size` of the longer side, but at least `least_cell_size` sampling distances.
+// `cell_size` is a seventh of the bending length, so that the lattice can represent fields that bend over this length.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is not 0, because the system
 // would then be singular.
@@ -35,11 +34,10 @@ constexpr float least_tension = .1F;
 // unit of stiffness is the tension across a cell.
 constexpr float tie_per_cell = .8F;
 // Parameters of the forces that keep nearer parts higher than farther parts beside them, the near order
-// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
-// side. If the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher
-// by `largest_step` * tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of
-// the tension across a cell of `cell_size`. The forces fade out at the silhouette, where the relief stands
-// off the base anyway.
+// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer side. If
+// the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher by `largest_step` *
+// tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of the tension across a cell of
+// `cell_size`. The forces fade out at the silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -61,9 +59,8 @@ struct Scale {
   }
 };
 
-// Returns, per node, the share of the lattice around it that the surface covers. The share is 1/2 on the
-// silhouette and rises smoothly to 1 within two cells. It does not depend on where the silhouette passes
-// between the nodes.
+// Returns, per node, the share of the lattice around it that the surface covers. The share is 1/2 on the silhouette and
+// rises smoothly to 1 within two cells. It does not depend on where the silhouette passes between the nodes.
 std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
   std::vector<float> coverage(lattice.nodes());
   for (const Triangle c : triangles_inside(surface)) {
