@@ -41,9 +41,9 @@ PlateParts plate_parts(const Solid& solid);
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
-  std::span<const Vec2> places;  // unit: mm_per_place
+  std::span<const Vec2> places;  // in units of mm_per_place mm
   double mm_per_place = 1;
-  std::span<const float> heights;  // unit: mm_per_height
+  std::span<const float> heights;  // in units of mm_per_height mm
   float mm_per_height = 1;
   std::span<const Vec3f> normals;         // normals of the relief's points, unit length
   float stretch = 1;                      // factor by which `normals` are made steeper

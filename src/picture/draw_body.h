@@ -80,7 +80,7 @@ struct DrawCache {
 };
 
 // Overwrites the picture (4 channels) with the body and its drop shadow on a transparent background. The same
-// body, transform and parameters give the same pixels for any number of threads and any previous pictures.
+// body, transform and parameters give the same pixels for any number of threads, whatever was drawn before.
 void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
                DrawCache& cache, Image8& picture);
 

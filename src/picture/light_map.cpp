@@ -32,8 +32,8 @@ constexpr float shadow_strength = .7F;
 // more ridges.
 constexpr double step_px = 1.5;
 
-// Reduces the sky light where the surface is lower than the mean height within about `radius` pixels (after
-// Luft, Colditz and Deussen, Image Enhancement by Unsharp Masking the Depth Buffer, 2006).
+// Reduces the sky light where the surface is lower than the mean height within about `radius` pixels.
+// Source: Luft, Colditz and Deussen, Image Enhancement by Unsharp Masking the Depth Buffer, 2006.
 void hide_sky(const HeightField& field, int radius, Image<Light>& light) {
   Image<float> mean = field.z;
   blur(mean, radius);

@@ -22,8 +22,7 @@ struct PlateMesh {
 
 PlateMesh plate_mesh(const Surface& surface);
 
-// Returns the parts of a plate whose relief changes. In the solid `level`, all heights of the relief are
-// 0.
+// Returns the parts of a plate whose relief changes. In the solid `level`, all heights of the relief are zero.
 PlateParts parts_of_frames(const Solid& level, const Surface& surface);
 
 // Returns the body of a frame on its plate. The body refers to the mesh and to `shown`.

@@ -10,7 +10,7 @@ namespace {
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
 // The direction of the brightest sky: above, and slightly away from the lamp, so that slopes facing away from
-// the lamp are modelled, too.
+// the lamp get some shading, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
 // For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the plate's
@@ -44,10 +44,10 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// The environment that metal and varnish reflect. It has a soft box around the lamp, a lower and dimmer reflector on
-// the other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness of box
-// and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values were chosen by
-// eye; silver was compared with a photograph of coins.
+// The environment that metal and varnish reflect. It has a soft box around the lamp, and a lower and dimmer reflector
+// on the other side. Its walls are bright above and dark below, and the room beside the plate is dark. The brightness
+// of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values were chosen
+// by eye; silver was compared with a photograph of coins.
 constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;

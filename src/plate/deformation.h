@@ -18,7 +18,7 @@ using IndexPolygon = std::vector<Index>;
 struct Deformation {
   std::function<Vec3(const Vec3&)> at;  // maps a point of the flat body to its place in the curved one
   // Returns the position, in (0, 1), where the segment between two points crosses a crease; nothing if it
-  // crosses none. May be null.
+  // crosses none. If the function is null, there are no creases.
   std::function<std::optional<double>(const Vec3&, const Vec3&)> crease_between = nullptr;
   // A length in mm below which the deformed surface curves in one direction only, approximately. It
   // determines the distance between the samples of the deviation.

@@ -45,7 +45,7 @@ HeightField flat_height_field(const Box& box, const FieldSampling& sampling);
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
 // Returns the exact heights of a solid's front, with corners rounded as in files. A pixel has the height of
-// the highest triangle that contains its centre, edges included. (draw_height_field() is less exact: it
+// the highest triangle that contains its centre, edges included. (draw_height_field() is less exact. It
 // rounds corners to 1/256 pixel, which at a wall can change a height by the height of the wall.) If the
 // relief is shown alone, the field has the height of the ground around it. In the cases that
 // flat_height_field() names, the field has no pixels. `is_beside` is empty.

@@ -15,8 +15,8 @@ Vec2 edge(const Solid& solid, const IndexPolygon& polygon, std::size_t i) {
   return (solid.points[polygon[(i + 1) % polygon.size()]] - solid.points[polygon[i]]).head<2>();
 }
 
-// Rotates the order of the polygon's vertices until the lowest one (of several, the leftmost) is first, so
-// that the angles of its edges increase from 0 to 2 pi.
+// Rotates the order of the polygon's vertices until the lowest one (of several, the leftmost) is first.
+// Then the angles of its edges increase from 0 to 2 pi.
 void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   const auto is_lower = [&](Index a, Index b) {
     const Vec3 &p = solid.points[a], &q = solid.points[b];

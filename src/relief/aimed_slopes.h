@@ -23,7 +23,7 @@ Vec3 direction_of(const LightDirection& light);
 std::vector<float> local_contrast(const Surface& surface, const LightDirection& light);
 
 // Returns the slope whose shading under the light l is `shading`: the cosine of the angle between normal and light, or
-// 0 where the cosine is negative. Its component across the light's direction in the view plane is the same as that of
+// 0 where the cosine is negative. The slope's component across the light's direction in the view plane is the same as that of
 // s. If two such slopes exist, the one nearer to s is returned; if none exists, s is returned.
 template <typename Real>
 Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {

@@ -129,9 +129,9 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief, before
-  // its slopes are limited, is 64 times as high as a cone that has the largest slope and, as its radius, half the
-  // longer side. This does not depend on the requested height, so the largest height is the same for all requests.
+  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief is 64
+  // times as high as a cone of the largest slope whose radius is half the longer side, before its slopes are limited.
+  // This does not depend on the requested height, so the largest height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

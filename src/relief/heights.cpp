@@ -123,8 +123,8 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
   });
 }
 
-// Returns the matrix of the normal equations of the least squares (9), a weighted Laplacian. Boundary points
-// have height 0, so they have no row.
+// Returns the matrix of the normal equations of the least-squares problem (9), a weighted Laplacian.
+// Boundary points have height 0, so they have no row.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const auto n = static_cast<int>(free_points.size());

@@ -40,8 +40,8 @@ struct EightFloats {
 
 // Turns the weighted layers (x, y) of points into target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where t
 // is the height share. The root compensates for the tilt that the height correction leaves. At t = 1 the
-// result is the slope of the normal with this x and y; near t = 0, where surfaces end up almost level, it is
-// (x, y). Slopes are shortened to at most `max_slope`.
+// result is the slope of the normal with this x and y. Near t = 0, surfaces end up almost level, and the
+// result is (x, y). Slopes are shortened to at most `max_slope`.
 template <typename Numbers, typename Real>
 RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
                                 Real height_share_sq, Real max_slope) {

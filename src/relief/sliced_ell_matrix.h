@@ -40,11 +40,13 @@ class SlicedEllMatrix {
   // constructor) is not counted.
   std::size_t memory() const;
 
-  // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).
+  // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient, over the entries of row i: the
+  // right-hand side of equation (9).
   void divergence(std::span<const Vec2f> slopes, std::span<float> sums) const;
   void divergence(std::span<const Vec2> slopes, std::span<double> sums) const;
 
-  // Writes a unit normal per point, along (x, y, 1), where (x, y) = sum of heights[other] coefficient.
+  // Writes a unit normal per point, along (x, y, 1), where (x, y) = sum of heights[other] *
+  // coefficient over the point's entries.
   void normals(std::span<const float> heights, std::span<Vec3f> normals) const;
 
   static constexpr std::size_t lanes = 8;

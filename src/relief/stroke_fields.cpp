@@ -111,7 +111,7 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   std::vector<StrokeBlur<Real>*> blurs;
   for (Layer& layer : layers_)
     if (layer.blur && !(is_same && !layer.blur->removed().empty())) blurs.push_back(&*layer.blur);
-  if (blurs.size() == 1) return blurs[0]->take(z);  // one blur may use all threads
+  if (blurs.size() == 1) return blurs[0]->take(z);  // a single blur may use all threads
   parallel_for(
       blurs.size(), [&](std::size_t i) { blurs[i]->take(z); }, 1);
 }

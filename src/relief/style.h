@@ -37,7 +37,7 @@ struct RaisedHeights {
   HeightSpan<Real> span = {};            // span of z, set by raise() and finish()
   double height = 0;                     // height of the relief, set by raise() and finish()
 
-  // Calls change(i, z) for every height z; it may change the height. Returns the span of the results.
+  // Calls change(i, z) for every height z; the call may change z. Returns the span of the results.
   template <typename Change>
   HeightSpan<Real> change_all(Change change) const {
     spans.resize((z.size() + default_grain - 1) / default_grain);

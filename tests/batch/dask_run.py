@@ -4,8 +4,8 @@
     PYTHONPATH=PACKAGE dask_run.py PROGRAM [--good 980] [--bad 20]
 
 PACKAGE is the folder that has the package relievo with its built module, for example build/release/python.
-A worker is killed in the middle (kill -9), then the whole run; then the run is started again. There must be a relief of
-each good scan and an error of each bad one, none twice and none in part, with the bytes that `relievo make` writes.
+A worker is killed in the middle (kill -9), then the whole run. Then the run is started again. In the end there must be
+a relief of each good scan, complete and with the bytes that `relievo make` writes, and one error of each bad scan.
 """
 
 import argparse
@@ -39,7 +39,7 @@ def journal(output):
 
 
 def wait_for(count, output, process, log):
-    """Waits until the journal has that many records."""
+    """Waits until the journal has `count` records."""
     while len(journal(output)) < count:
         if process.poll() is not None:
             sys.exit(f"the run ended before it could be killed, with {process.returncode}: {content(log).decode()}")

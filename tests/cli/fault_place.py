@@ -63,7 +63,7 @@ class Faults:
 
 
 def failing_allocations(faults, chance):
-    """Chooses the allocations that fail: one, or all large ones from a chosen one on. Returns (first, count)."""
+    """Chooses which allocations fail: a single one, or all large ones after a number. Returns (first, count)."""
     count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
     return int(10 ** chance.uniform(0, most)), count
 
@@ -171,7 +171,7 @@ class Place:
         self.mounted.append(path)
 
     def fill_disk(self, path, free):
-        """Fills the disk until only that many bytes are free."""
+        """Fills the disk until only the given number of bytes is free."""
         room = os.statvfs(path)
         with open(path / "filling", "wb") as file:
             file.write(bytes(max(0, room.f_bavail * room.f_frsize - free)))
@@ -208,8 +208,8 @@ def files_in(folder):
 
 
 def temporaries(folder):
-    """Returns the names of temporary files, all of which end with two numbers. A program that is killed just after it
-    made a file has not marked it as its own yet, so nobody may remove it; such a file is empty and does not count."""
+    """Returns the names of the temporary files that are not empty. Such names end with two numbers. An empty file does not
+    count: a program that is killed just after it made the file has not marked it as its own, so nobody may remove it."""
     return [path.name for path in folder.rglob("*.relievo-[0-9]*-[0-9]*") if size_of(path)] if folder.is_dir() else []
 
 

@@ -145,7 +145,7 @@ def send_slowly(page, chance, is_over):
 
 
 def fault_in_studio(page, kind, chance, document):
-    """Works with the studio while a fault lasts. Returns whether the fault came."""
+    """Sends requests to the studio while a fault lasts. Returns whether the fault came."""
     faults, is_over, others = page.place.faults, threading.Event(), []
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, *failing_allocations(faults, chance))

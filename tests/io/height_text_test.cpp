@@ -53,8 +53,8 @@ TEST(EsriGrid, ReadsOtherSpellings) {
   EXPECT_TRUE(std::isnan(commas.values.at(3, 3)));
 }
 
-// A grid counts as a grid in degrees if its corner is a position on the globe, and its heights, in metres,
-// would otherwise be far too large for its width.
+// A grid is in degrees if its corner is a position on the globe, and its heights would be far too large
+// for its width if both were in metres.
 TEST(EsriGrid, ConvertsDegrees) {
   const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
   const auto size_at = [&](const std::string& corner, const std::string& cell) {
@@ -154,8 +154,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Returns the table of hill() with the position of each row before the row, the position of each column
-// above the column, and `corner` in the first cell.
+// Returns the table of hill() with headings. The position of each row is before the row, the position
+// of each column above the column. `corner` is in the first cell.
 std::string with_places(const std::string& corner, double wide, double high) {
   const std::vector<std::string> rows = lines_of(hill(12, 9, ","));
   std::string text = corner;

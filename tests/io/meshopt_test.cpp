@@ -51,17 +51,17 @@ std::string triangle_stream(const std::string& codes, const std::string& data) {
 
 TEST(Meshopt, DecodesEveryKindOfTriangle) {
   const std::string codes = bytes_of({
-      0xF0,  // three new corners: 0 1 2; edges, the newest first: 0 2, 2 1, 1 0
-      0x00,  // the newest edge, 0 2, and a new corner
-      0x10,  // the second edge, which is 3 2, and a new corner
-      0x02,  // the newest edge, 3 4, and the third newest of the vertices 4 3 2
-      0x0E,  // the newest edge, 3 2, and the index after the last explicit one, which is 0
-      0x0D,  // the newest edge, 3 1, and the index before the last explicit one, 1
-      0x0F,  // the newest edge, 3 0, and an explicit index: the last one, 0, plus 10
-      0xF1,  // a new corner 5, the last vertex and a new corner
-      0xFF,  // explicit indices: minus 3, plus 2 and plus 300
-      0xFE,  // a new corner, the newest vertex and an explicit one
-      0xFE,  // starts again with 0 1 2
+      0xF0,  // three new corners, 0 1 2; its edges, the newest first, are 0 2, 2 1, 1 0
+      0x00,  // the newest edge, 0 2, and a new corner, 3
+      0x10,  // the second newest edge, 3 2, and a new corner, 4
+      0x02,  // the newest edge, 3 4, and vertex 2, the third newest after 4 and 3
+      0x0E,  // the newest edge, 3 2, and vertex 1: the last explicit index, 0, plus 1
+      0x0D,  // the newest edge, 3 1, and vertex 0: the last explicit index, 1, minus 1
+      0x0F,  // the newest edge, 3 0, and vertex 10: the last explicit index, 0, plus 10
+      0xF1,  // a new corner, 5, the last vertex, 10, and a new corner, 6
+      0xFF,  // three explicit indices: the last one minus 3, then plus 2, then plus 300
+      0xFE,  // a new corner, 7, the newest vertex, 309, and an explicit index, 308
+      0xFE,  // the triangles start again with 0 1 2
   });
   const std::string data = bytes_of({20, 0xFF, 5, 4, 0xD8, 0x04, 0x1F, 1, 0x00});
   const MeshoptLayout layout{MeshoptMode::triangles, MeshoptFilter::none, 33, 4};

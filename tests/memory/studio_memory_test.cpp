@@ -1,8 +1,8 @@
 // Tests the studio, without HTTP and in one process, while memory runs out. If an allocation fails in any thread, the
 // request must get its usual answer or an error of kind memory. Nothing may stay busy, and the same request must get
-// its usual answer afterwards. Allocations of a few bytes do not fail here, because the destructors of JSON objects
-// make some, for which the program has a reserve. For each request the test repeats this with several failing
-// allocations; the environment variable ALLOCATIONS is their number, and 0 means all.
+// its usual answer afterwards. Each request is repeated several times, each time with another failing allocation. The
+// environment variable ALLOCATIONS is the number of repetitions; 0 means one for every allocation. Allocations of a few
+// bytes do not fail here: the destructors of JSON objects make some, and the program keeps a reserve for these.
 #include <gtest/gtest.h>
 
 #include <chrono>

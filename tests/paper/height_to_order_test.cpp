@@ -25,7 +25,8 @@ TEST(PaperHeightToOrder, IsMetToOnePercent) {
   }
 }
 
-// With half of the beta that was found, no alpha from 0.001 to the largest double gives the height.
+// The beta that the search finds is the smallest: with half of it, no alpha from 0.001 to the
+// largest double gives the height.
 TEST(PaperHeightToOrder, HasTheSmallestBeta) {
   for (const double wanted : {.02, .3, .9}) {
     const double beta = adjust_to_height(wanted, height_of).beta;

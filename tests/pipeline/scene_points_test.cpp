@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// The spacing of the points of a ball, and the mean angle between the normal of a point and the
-// direction from the ball's centre to the point.
+// The spacing of the points of a ball, and the mean error of their normals: the angle between a
+// normal and the direction from the ball's centre.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };
@@ -256,8 +256,8 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
   // `steepest` is the largest height difference between the ends of an edge, in mm. Edges on the balls are only a
-  // fraction of a millimetre long, so their ends differ little in height. A wall between the balls would be almost as
-  // high as the whole relief, 4 mm, because the depths of the balls differ by more than the width of the relief.
+  // fraction of a millimetre long, so their ends differ little in height. The depths of the balls differ by more than
+  // the width of the relief. So a wall between them would be almost as high as the whole relief, 4 mm.
   EXPECT_LT(steepest, 1.0);
 }
 

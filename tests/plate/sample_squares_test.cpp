@@ -51,7 +51,7 @@ TEST(SampleSquares, CoverEachCellWithASlopeOnce) {
 TEST(SampleSquares, AreLargeOnAPlane) {
   const std::vector<SampleSquare> squares = sample_squares(cylinder(0), angle);
   const auto large = std::ranges::count(squares, largest_square, &SampleSquare::side);
-  EXPECT_EQ(large, 16);  // smaller squares surround these at the edge of the grid
+  EXPECT_EQ(large, 16);  // at the edge of the grid the squares are smaller
   EXPECT_EQ(quartered(squares), 0);
 }
 

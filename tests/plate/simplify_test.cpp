@@ -17,8 +17,7 @@ namespace {
 
 using test::flat_front, test::grid_front;
 
-// Returns the Delaunay triangulation of scattered points, and of a rectangle around them at height
-// 0.
+// Returns the Delaunay triangulation of scattered points, and of a rectangle around them on the ground.
 HeightFieldMesh scattered_front(int n, const std::function<double(double, double)>& z,
                                 std::uint64_t seed = 7) {
   test::Random random(seed);
@@ -156,8 +155,7 @@ double steepest(const HeightFieldMesh& front) {
 }
 
 TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
-  // Returns the height of folds of slope 1.1. At the rim, the folds are cut off by ramps of slope
-  // 1.
+  // Returns the height of folds of slope 1.1. At the rim, ramps of slope 1 cut the folds off.
   const auto folds = [](double x, double y) {
     const double along = x + .5 * y + 100;
     return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});

@@ -158,7 +158,7 @@ TEST(AttentionWeights, RaiseSlopesWhereAttentionIsHighAndLowerThemElsewhere) {
   EXPECT_GT(higher, 3000U);
   EXPECT_GT(lower, 3000U);
   EXPECT_LT(wrong,
-            (higher + lower) / 100);  // the fine and the middle layer may point in opposite directions
+            (higher + lower) / 100);  // fine and middle layer may oppose each other
 }
 
 TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {

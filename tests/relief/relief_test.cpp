@@ -139,7 +139,7 @@ TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
 }
 
 // Only slopes matter, so the relief must not depend on the depth of a jump. tests/relief/depth_jumps_test.cpp
-// bounds the steps that remain.
+// tests bounds of the steps that remain.
 TEST(Relief, OfATiltedFlapDoesNotDependOnItsDistance) {
   const auto relief_at = [](double distance) {
     return prepared(test::flap_before_a_sheet(8000, distance)).make({{1, .01}, 0});

@@ -64,7 +64,7 @@ TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
     Vec3 gradient;  // by central differences, independently of the normals
     for (int axis = 0; axis < 3; ++axis)
       gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - solid.value(p - step * Vec3::Unit(axis));
-    if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // 1 degree
+    if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // over 1 degree
   }
   EXPECT_LT(off_normals, 300) << "only a point on a crease may have another normal";
 }

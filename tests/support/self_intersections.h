@@ -175,9 +175,9 @@ class BoxTree {
   std::vector<Box> boxes_;
 };
 
-// Returns the faults of a solid as stored in a file; an empty text if there are none. The text states the
-// number of triangles without area, and the number of pairs of triangles that share more than a corner or an
-// edge, with one pair as an example.
+// Returns the faults of a solid as stored in a file; an empty text if there are none. The text states how
+// many triangles have no area, and how many pairs of triangles share more than a corner or an edge. One of
+// these pairs is named.
 inline std::string self_intersections(const Solid& solid) {
   std::vector<BoundedTriangle> triangles;
   std::size_t flat = 0, pairs = 0;

@@ -45,8 +45,8 @@ class Approximation {
   double height(Index t, const Vec2& place) const;
 
   // Calls f at each crossing of the segment from a to b with an edge; a must lie in triangle t. The
-  // arguments of f are the triangles before and after the crossing, the position of the crossing as a share
-  // of the segment, and the height of the approximation at the crossing.
+  // arguments of f are: the triangles before and after the crossing; its position as a share of the
+  // segment; the height of the approximation there.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;

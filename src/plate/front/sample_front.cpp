@@ -123,8 +123,8 @@ class Sampler {
                          corner_weights(grid_.input, t, pixel.x(), pixel.y()));
   }
 
-  // Adds the points of the given front that are kept: points of the band and of the hull, and the
-  // highest and the lowest point.
+  // Adds the points of the given front that are kept: points of the band near creases, points of
+  // the hull, and the highest and the lowest point.
   void add_old_points() {
     std::vector<std::uint8_t> is_kept(front_.points.size(), 0), is_fixed = is_kept;
     for (std::size_t t = 0; t < is_band_.size(); ++t)
@@ -148,8 +148,8 @@ class Sampler {
     }
   }
 
-  // Divides each edge of the band's smooth triangles into the same number of parts, so that the median part
-  // is about as long as the resolution. New points on creases stay on the creases.
+  // Divides each edge of the smooth triangles in the band near creases into the same number of parts, so
+  // that the median part is about as long as the resolution. New points on creases stay on the creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -196,9 +196,9 @@ class Sampler {
     }
   }
 
-  // Subsamples the band, because points of a scan may nearly coincide in the view. Fixed points are kept:
-  // points on creases and on the hull, the lowest and the highest point. Another point is kept only if it is
-  // not too close to a fixed point or to a point already kept.
+  // Subsamples the band near creases, because points of a scan may nearly coincide in the view. Fixed points
+  // are kept: points on creases and on the hull, the lowest and the highest point. Another point is kept
+  // only if it is not too close to a fixed point or to a point already kept.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
@@ -217,7 +217,7 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a sample near the middle of each square outside the band.
+  // Adds a sample near the middle of each square outside the band, which lies near creases and the hull.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));
@@ -252,8 +252,8 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the centres of a square's quarters as samples, except those close to a point of the band.
-  // `quarters` is a grid with half the step.
+  // Adds the centres of a square's quarters as samples, except those close to a point of the band
+  // near creases. `quarters` is a grid with half the step.
   void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
       const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;
@@ -264,7 +264,7 @@ class Sampler {
     }
   }
 
-  // Marks the grid cells that are close to points of the band.
+  // Marks the grid cells that are close to points of the band near creases.
   std::vector<std::uint8_t> taken_cells() const {
     const int width = grid_.input.width, height = grid_.input.height;
     std::vector<std::uint8_t> is_taken(grid_.triangle.pixels.size(), 0);

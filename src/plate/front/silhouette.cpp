@@ -15,7 +15,7 @@ namespace {
 // Parts of less than this share of the relief's area are artefacts of the scan.
 constexpr double smallest_piece = 1e-3;
 
-// Returns, per point, whether the boundary passes it more than once.
+// Returns, per point, whether it is pinched: whether the boundary passes it more than once.
 std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, std::size_t points) {
   std::vector<std::uint8_t> leaving(points, 0);
   for (const auto& [a, b] : boundary_edges(triangles))
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, st
   return leaving;
 }
 
-// A triangle around a pinched point. Sorting groups the triangles by point.
+// A triangle around a pinched point, which the boundary passes more than once. Sorting groups the triangles by point.
 struct Spoke {
   Index point, triangle;
   auto operator<=>(const Spoke&) const = default;
@@ -73,7 +73,7 @@ double area_of(const HeightFieldMesh& front, const Triangle& t) {
   return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
-// Removes the connected parts whose area is below the share smallest_piece of the whole.
+// Removes the connected parts whose area is less than smallest_piece of the whole area.
 void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
   DisjointSets pieces(front.points.size());
   for (const auto& [a, b, c] : triangles) pieces.join(a, b), pieces.join(b, c);

@@ -25,7 +25,7 @@ constexpr std::size_t grain = 8192;  // points or edges that one task measures
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A position where a triangle of the approximation exceeds its tolerance. It is a point of the
-// original, or a position on an edge of the original, given as a share of the edge.
+// original front, or a position on an edge of it, given as a share of the edge.
 struct Candidate {
   Index triangle = no_index;
   double error = 0;
@@ -33,7 +33,7 @@ struct Candidate {
   double share = 0;
 };
 
-// An edge of the original, and the opposite corners of its one or two triangles (no_index for a missing one).
+// An edge of the original front, and the opposite corners of its one or two triangles (no_index for a missing one).
 struct Edge {
   Index a, b;
   std::array<Index, 2> facing = {no_index, no_index};
@@ -136,9 +136,9 @@ class Simplifier {
     return count;
   }
 
-  // Removes candidates that would exceed the limit of triangles. If there is a limit, it also postpones the
-  // half of the candidates with the smaller errors, so that errors are similar everywhere when the limit is
-  // reached. A point adds two triangles; a point on the hull adds one.
+  // Removes candidates that would exceed the limit of triangles. If there is a limit, the half of the
+  // candidates with the smaller errors is postponed, too. Then errors are similar everywhere when the limit
+  // is reached. A point adds two triangles; a point on the hull adds one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles

@@ -22,7 +22,7 @@
 namespace relievo {
 namespace {
 
-// Lists the triangles around each point of a mesh, of which only small parts change.
+// Lists the triangles around each point of a mesh. Small parts of the mesh may change.
 class Fans {
  public:
   // Keeps a reference to the triangles, so their address must not change.

@@ -20,8 +20,8 @@ double flip_thin_triangles(Solid& front, bool may_lose_edges = false);
 // does not intersect itself either.
 std::vector<Index> find_folds(const Solid& solid);
 
-// Moves points of the front, and the points below them, by a few units in the last place, so that find_folds() returns
-// as few triangles as possible, usually none. Points of the outline and on the sides of the box do not move.
+// Moves points of the front, and the points below them, by a few units in the last place. Afterwards find_folds()
+// returns as few triangles as possible, usually none. Points of the outline and on the sides of the box do not move.
 void unfold(Solid& solid, std::span<const Index> outline = {});
 
 }  // namespace relievo
