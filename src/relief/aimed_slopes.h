@@ -22,9 +22,9 @@ Vec3 direction_of(const LightDirection& light);
 // mean of the shading along the surface. The standard deviation is 3 % of the longer side.
 std::vector<float> local_contrast(const Surface& surface, const LightDirection& light);
 
-// Returns the slope whose shading under the light l is `shading`: the cosine of the angle between normal and light, or
-// 0 where the cosine is negative. The slope's component across the light's direction in the view plane is the same as that of
-// s. If two such slopes exist, the one nearer to s is returned; if none exists, s is returned.
+// Returns the slope whose shading under the light l is `shading`. A shading is the cosine of the angle between normal
+// and light, or 0 where the cosine is negative. Across the light's direction in the view plane, the slope has the same
+// component as s. If two such slopes exist, the one nearer to s is returned; if none exists, s is returned.
 template <typename Real>
 Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {
   const Real h = l.template head<2>().norm();

@@ -14,7 +14,7 @@ OUTPUTS = ("a.stl", "a.png", "a.tif")
 
 
 def run_with_fault(place, kind, chance, command, name):
-    """Runs a program with a fault. Returns the exit code, the errors, and whether the fault came in time."""
+    """Runs a program with a fault. Returns its exit code, its errors, and whether the fault came before it ended."""
     faults, most = place.faults, place.setup.most[name]
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, chance.randint(1, most[0]), chance.choice([1, 1, 3, 10**9]))
