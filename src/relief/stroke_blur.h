@@ -15,7 +15,7 @@ namespace relievo {
 struct SurfaceLinks {
   struct Link {
     Index to;
-    float weight;  // edge_weight()
+    float weight;  // the result of edge_weight()
   };
   Groups<Link> links;        // per point: its edges inside the relief that are no depth jumps
   std::vector<float> areas;  // per point: a third of the area of its triangles, in the view plane
