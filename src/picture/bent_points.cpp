@@ -7,7 +7,7 @@
 namespace relievo {
 
 BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : wrap_(wrap), points_(places.size()) {
-  constexpr double step_mm = .01;  // distance between the two places whose difference gives a derivative
+  constexpr double step_mm = .01;  // distance between the two positions from which a derivative is computed
   const auto out_at = [&](const Vec2& p) -> Vec3 { return wrap.at(p, 1) - wrap.at(p, 0); };
   parallel_for(places.size(), [&](std::size_t i) {
     const Vec2 p = places[i], x(step_mm / 2, 0), y(0, step_mm / 2);
@@ -20,8 +20,9 @@ BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : wrap_(w
   });
 }
 
-// The normal is perpendicular to the derivatives of the relief's position by x and y. Both derivatives are multiplied
-// by z of the flat normal, because its x and y are minus the slopes of the flat relief times this z.
+// The normal is perpendicular to the derivatives of the relief's position with respect to x and y. Both derivatives are
+// multiplied by the z of the flat normal. That replaces the slopes of the flat relief by minus the x and y of this
+// normal, without a division.
 Vec3f BentPoints::normal(std::size_t i, float height_mm, const Vec3f& flat) const {
   const Point& p = points_[i];
   const Vec3f by_x = flat.z() * (p.at_by_x + height_mm * p.out_by_x) - flat.x() * p.out;

@@ -11,10 +11,11 @@
 namespace relievo {
 namespace {
 
-// At a plate's edges normals differ by more than this angle, between the facets of round parts by less.
+// At edges of a plate, normals differ by more than this angle; between the facets of round parts they differ by less.
 constexpr double sharpest_deg = 20;
 
-// Solids are rounded to single precision, so the heights of points on the ground differ slightly.
+// Tolerance for the heights of points on the ground, which differ slightly because solids are
+// rounded to single precision.
 constexpr double rounding_mm = 1e-6;
 
 bool is_at_ground(const Solid& solid, const Triangle& corners) {
@@ -46,8 +47,7 @@ Part part_of(const Solid& solid, std::size_t t) {
 
 }  // namespace
 
-// The ground and the rim's bevel are smoothed separately, because their common edge stays sharp even at a
-// small angle.
+// The ground and the rim's bevel are smoothed separately, so that their common edge stays sharp even at a small angle.
 PlateParts plate_parts(const Solid& solid) {
   const std::size_t count = solid.triangles.size();
   PlateParts out{std::vector<Part>(count), std::vector<Index>(count, no_index), {}, solid.front_triangles};
@@ -74,8 +74,8 @@ PlateParts plate_parts(const Solid& solid) {
   return out;
 }
 
-// Level triangles are ignored. Those of the ground are large and thin, and would spread the shading of the
-// relief's rim across the ground.
+// Level triangles are ignored. The level triangles of the ground are large and thin, and would spread the
+// shading of the relief's rim across the ground.
 std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {

@@ -13,7 +13,7 @@ namespace relievo {
 
 struct SurfaceDetail;
 
-// The part of the body that a triangle belongs to. It determines the shading.
+// The part of the body to which a triangle belongs. It determines the shading.
 enum class Part : std::uint8_t {
   nothing,
   relief,  // shaded by the normals of its points, or flat if it is level
@@ -22,40 +22,39 @@ enum class Part : std::uint8_t {
   wall     // sides and bottom; shaded like `curved`, but without cast shadows
 };
 
-// The part of each triangle, and corner normals for triangles that are not shaded by the normals of their
-// points.
+// The part of each triangle. Triangles that are not shaded by the normals of their points have corner
+// normals in addition.
 struct PlateParts {
   std::vector<Part> parts;                           // part of each triangle
   std::vector<Index> corners_at;                     // per triangle: index into corner_normals, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
   std::size_t front_triangles = 0;                   // number of front triangles, which come first
-  bool has_curved_ground = false;                    // whether the ground is on a base or bent around a wrap
+  bool has_curved_ground = false;                    // whether the ground lies on a curved base or is bent
 };
 
 // Returns the parts of a solid. Corner normals are smoothed across edges between triangles of the same part
 // that meet at less than 20 degrees.
 PlateParts plate_parts(const Solid& solid);
 
-// A body whose x and y are relative to the middle of its box, and whose z is relative to the ground.
-// Triangles refer to its points by index: first the points with heights, then `box_corners`. A DrawnBody does
-// not own its arrays.
+// A body to draw. Its x and y are relative to the middle of its box, its z to the ground. Triangles refer to
+// points by index: first the points with heights, then `box_corners`. A DrawnBody does not own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
-  std::span<const Vec2> places;  // unit: mm_per_place
+  std::span<const Vec2> places;  // in units of mm_per_place mm
   double mm_per_place = 1;
-  std::span<const float> heights;  // unit: mm_per_height
+  std::span<const float> heights;  // in units of mm_per_height mm
   float mm_per_height = 1;
   std::span<const Vec3f> normals;         // normals of the relief's points, unit length
   float stretch = 1;                      // factor by which `normals` are made steeper
-  const SurfaceDetail* detail = nullptr;  // detail between the points, added with `gains` (see Shown)
+  const SurfaceDetail* detail = nullptr;  // detail between the points, added with `gains`; see Shown
   std::span<const float> gains = {};
   std::span<const float> tint = {};  // see Shown
   Vec2f middle = Vec2f::Zero();      // middle of the surface's points, in the coordinates of `detail`
   std::vector<Vec3> box_corners = {};
   Box front = {};  // box of the front's points, in mm
-  // Whether no point of the front hides another in the view from above. Then rendering that view does not
-  // need the heights.
+  // Whether no point of the front hides another one in the view from above. If so, rendering this view
+  // does not need the heights.
   bool is_height_field = false;
   bool is_rectangle = false;  // whether the front covers its box
 

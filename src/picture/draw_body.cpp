@@ -13,16 +13,14 @@
 namespace relievo {
 namespace {
 
-// The following functions draw the soft shadow of a body on the ground behind it.
-
 // Soft shadows need few pixels: the longer side of their coarse grid has at most this many cells.
 constexpr int most_cells = 160;
 
 // Opacity of the full shadow, similar to the shadow on a table in a bright room with a lamp.
 constexpr float shadow_opacity = .4F;
 
-// The radius of the shadow's soft edge, and the largest distance between shadow and body, in cells. The
-// values suit the thickness of a plate.
+// The radius of the shadow's soft edge, and the distance by which a shadow is offset from its body at
+// most, both in cells. The values suit the thickness of a plate.
 constexpr int softness = 2;
 constexpr float farthest = 2;
 
@@ -64,7 +62,7 @@ class DropShadow {
   Image<float> shade_;
 };
 
-// Composites a pixel over black with opacity `shade`.
+// Composites a pixel over black of opacity `shade`.
 void lay_over(std::uint8_t* rgba, float shade) {
   const float coverage = static_cast<float>(rgba[3]) / 255, opacity = coverage + (1 - coverage) * shade;
   if (opacity <= 0) return;
@@ -73,8 +71,8 @@ void lay_over(std::uint8_t* rgba, float shade) {
   rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
 }
 
-// Adds the shadow of the opaque pixels to the other pixels of a picture with 4 channels, as black with some
-// opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
+// Draws the shadow of the opaque pixels of a picture with 4 channels onto its other pixels, as black with
+// some opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
 void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   const DropShadow shadow(picture, to_lamp);
   const auto add_to_row = [&](std::size_t row) {
@@ -86,13 +84,13 @@ void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   parallel_for(static_cast<std::size_t>(picture.height), add_to_row, 8);
 }
 
-// Samples per pixel of fine pictures in each direction. With 3 x 3 samples the steps along slanted edges are
-// invisible.
+// Number of samples per pixel of fine pictures, in each direction. With 3 x 3 samples the steps along
+// slanted edges are invisible.
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 
-// Longer side of the light map. Shadows are soft, so it may be coarser than the picture. For live pictures it
-// is so small that shadows take only a few milliseconds.
+// Longer side of the light map, in pixels. Shadows are soft, so the map may be coarser than the picture. For
+// live pictures it is so small that shadows take only a few milliseconds.
 constexpr int fine_light_px = 640, least_light_px = 120, most_quick_light_px = 280;
 
 int light_map_px(const ScreenTransform& transform, bool is_fine) {
@@ -101,17 +99,17 @@ int light_map_px(const ScreenTransform& transform, bool is_fine) {
                  : std::clamp(side / 3, least_light_px, most_quick_light_px);
 }
 
-// Walls and bottom get uniform light, with slightly less lamp light than the front, so that the front's edge
-// is visible. Their normals lean towards the viewer, because dark walls would look like holes.
+// Walls and bottom get uniform light. It has slightly less lamp light than the front, so that the front's
+// edge is visible. Their normals are turned towards the viewer, because dark walls would look like holes.
 constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls transmit light like a plate of about mean thickness
 
-// Linear hues of a body's tint at shares 0 and 1.
+// Linear colours of a body's tint where the share of tint is 0 and where it is 1.
 const Vec3f no_tint(.25F, .4F, 1), full_tint(1, .35F, .05F);
 
-// Returns the difference between the detail at `place` and the surface's own normal there. The detail is
-// interpolated bilinearly between the centres of cells.
+// Returns the difference between the surface detail at `place` and the surface's own normal there. The
+// detail is interpolated bilinearly between the centres of cells.
 Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
   const Vec2f at = (place - detail.corner) / detail.cell - Vec2f::Constant(.5F);
   const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
@@ -137,7 +135,7 @@ class Painter {
         shader_(params.material, direction_of(params.light), to_viewer_),
         tint_(params.reach, body.front) {}
 
-  // Returns the linear colour of a point. x and y are in pixels of the transform.
+  // Returns the linear colour of a visible point. x and y are its position in the picture, in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
     Lit lit{Vec3f::UnitZ(),
             {1, 1},
@@ -174,7 +172,7 @@ class Painter {
     return normal.normalized();
   }
 
-  // Returns the colour with the body's tint, as bright as before.
+  // Returns the colour with the body's tint. The brightness does not change.
   Vec3f tinted(const Vec3f& colour, const VisiblePoint& seen) const {
     if (body_.tint.empty() || seen.part != Part::relief) return colour;
     const auto& [a, b, c] = seen.corners;
@@ -183,8 +181,8 @@ class Painter {
     return colour.mean() / hue.mean() * hue;
   }
 
-  // Returns the light, with the map's shadows faded out where the surface turns away from the front. The map
-  // is computed for the front view, so it is wrong on the sides and the back of a bent body.
+  // Returns the light, with the light map's shadows faded out where the surface turns away from the front.
+  // The map is computed for the front view, so it is wrong on the sides and the back of a bent body.
   static Light faded(const Light& light, const Vec3f& normal) {
     constexpr float hardly_seen = .35F, well_seen = .65F;
     const float share = std::clamp((normal.z() - hardly_seen) / (well_seen - hardly_seen), 0.F, 1.F);
@@ -215,15 +213,15 @@ void store(const Vec3f& colour, float coverage, const DisplayTable& display, std
   rgba[3] = static_cast<std::uint8_t>(coverage * 255 + .5F);
 }
 
-// A triangle that is visible in some samples of a pixel.
+// A triangle that is visible in at least one sample of a pixel.
 struct SeenTriangle {
   Index triangle = no_index;
   int samples = 0;
-  Vec3f places = Vec3f::Zero();  // sum of the samples' positions
+  Vec3f places = Vec3f::Zero();  // sum of the positions of the samples
 };
 
 // Finds the triangles that are visible in the n x n samples of a pixel. Lists each triangle once, because
-// colours are computed per triangle. Returns the number of triangles.
+// colours are computed once per triangle. Returns the number of triangles.
 int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTriangle, most_samples>& seen) {
   int count = 0;
   for (int y = row * n; y < row * n + n; ++y) {
@@ -306,7 +304,7 @@ HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisib
     const VisiblePoint& seen = visible.pixels[i];
     field.z.pixels[i] = seen.part == Part::nothing ? 0 : height_mm(body, seen) - body.lowest_mm();
   });
-  if (body.is_rectangle) return field;  // the front covers all pixels
+  if (body.is_rectangle) return field;  // then the front covers all pixels
   field.is_beside.resize(field.z.width, field.z.height);
   std::ranges::transform(visible.pixels, field.is_beside.pixels.begin(),
                          [](const VisiblePoint& seen) { return seen.part == Part::nothing; });

@@ -15,16 +15,17 @@
 
 namespace relievo {
 
-// A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is the rest.
+// A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is what
+// remains to a sum of 1.
 struct VisiblePoint {
-  // The corners are stored here, because looking them up would make live pictures a third slower.
+  // The corners are stored with the point, because looking them up would make live pictures a third slower.
   Triangle corners = {no_index, no_index, no_index};
   Index triangle = no_index;
   std::uint16_t first = 0, second = 0;
   float z = 0;  // height towards the viewer, in pixels
   Part part = Part::nothing;
 
-  // Returns the mean of the values at the three corners with these weights.
+  // Returns the mean of values at the three corners, weighted by the barycentric weights.
   template <typename T>
   T mean(const T& a, const T& b, const T& c) const {
     const float s = static_cast<float>(first) / 65535, t = static_cast<float>(second) / 65535;
@@ -34,7 +35,7 @@ struct VisiblePoint {
 
 using VisibilityBuffer = Image<VisiblePoint>;
 
-// Returns the body's triangles in pixels of the picture; without heights, for a height field seen from above.
+// Returns the body's triangles in pixels of the picture. For a height field seen from above, the result has no heights.
 RasterInput raster_input(const DrawnBody& body, const ScreenTransform& transform);
 
 // Returns the point of a triangle of the body at position `place` in the picture.
@@ -47,8 +48,8 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
 // Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Caches a visibility buffer as long as it shows the same points. In the view from above, that is while only
-// heights change and the plate's size does not.
+// Caches a visibility buffer as long as the buffer shows the same points. In the view from above it does so
+// while only heights change, not the plate's size.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);
@@ -69,21 +70,21 @@ struct DrawParams {
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate
   bool has_shadows = true;
   bool is_fine = false;                         // more samples per pixel, and finer shadows
-  std::shared_ptr<const ToolReach> reach = {};  // colours the material that a tool leaves on the front
+  std::shared_ptr<const ToolReach> reach = {};  // colours material that the tool leaves
   const Progress* progress = nullptr;           // if cancelled, the picture stays unfinished
 };
 
-// Results that can be reused for pictures of the same body, if it is a height field.
+// Visibility buffers that can be reused for pictures of the same body, if it is a height field.
 struct DrawCache {
   CachedVisibility front, quick_light, fine_light;
 };
 
 // Overwrites the picture (4 channels) with the body and its drop shadow on a transparent background. The same
-// body, transform and parameters give the same pixels for any number of threads and any previous pictures.
+// body, transform and parameters give the same pixels for any number of threads, whatever was drawn before.
 void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
                DrawCache& cache, Image8& picture);
 
-// Returns the heights of the body's front above its lowest point, as an image with that longer side.
+// Returns the heights of the body's front above its lowest point. `longer_side_px` is the longer side of the result.
 HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisibility& cache);
 
 }  // namespace relievo

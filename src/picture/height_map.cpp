@@ -19,7 +19,8 @@ struct Averaged {
   int samples = 0;
 };
 
-// Returns the brightness of a surface lit from the upper left, given its slopes to the right and down.
+// Returns the brightness of a surface that is lit from the upper left. `right` and `down` are its
+// slopes in these directions.
 float grey(float right, float down) {
   const Vec3f lamp = Vec3f(-1, 1, 1.2F).normalized();
   const float facing = Vec3f(-right, down, 1).normalized().dot(lamp);

@@ -9,20 +9,20 @@
 namespace relievo {
 namespace {
 
-// Hollows are darkened at two scales. The radius of each is the front's longer side divided by its number.
-// The small radius suits folds and letters, the large one a figure in front of its ground.
+// Hollows are darkened at two scales. The radius of a scale is the front's longer side divided by one of
+// these numbers. The small radius suits folds and letters, the large one a figure in front of its ground.
 constexpr int hollow_divisors[] = {120, 30};
 
 // The share of the sky's light in the deepest hollow. Black hollows would look like holes.
 constexpr float darkest_hollow = .2F;
 
-// A hollow loses sky light with its depth below the mean of its surroundings. At this depth, in units of the
-// radius, 1/e of the removable sky light is left. It corresponds to about 24 degrees, the slope of a distinct
-// fold.
+// A hollow loses sky light with its depth below the mean height of its surroundings. At this depth, in units
+// of the radius, 1/e of the removable sky light is left. The depth corresponds to about 24 degrees, the slope
+// of a distinct fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
-// Tangent of the lamp's apparent size: a soft box of one metre at a distance of one and a half metres. The
-// shadows of a smaller lamp have edges that look like edges of the relief.
+// The width of the lamp divided by its distance: a soft box one metre wide, one and a half metres away.
+// The shadows of a smaller lamp have edges that look like edges of the relief.
 constexpr float lamp_width = .7F;
 
 // The share of the lamp's light that a full shadow removes. The rest represents light reflected by the room.
@@ -32,8 +32,8 @@ constexpr float shadow_strength = .7F;
 // more ridges.
 constexpr double step_px = 1.5;
 
-// Reduces the sky light where the surface is below the mean height within about `radius` pixels (after Luft,
-// Colditz and Deussen, Image Enhancement by Unsharp Masking the Depth Buffer, 2006).
+// Reduces the sky light where the surface is lower than the mean height within about `radius` pixels.
+// Source: Luft, Colditz and Deussen, Image Enhancement by Unsharp Masking the Depth Buffer, 2006.
 void hide_sky(const HeightField& field, int radius, Image<Light>& light) {
   Image<float> mean = field.z;
   blur(mean, radius);
@@ -44,7 +44,7 @@ void hide_sky(const HeightField& field, int radius, Image<Light>& light) {
   });
 }
 
-// The steps of a ray from a pixel to the lamp.
+// The steps of a ray from a pixel towards the lamp.
 struct Ray {
   float x, y;  // change per step, in pixels
   float rise;  // change per step, in mm
@@ -57,8 +57,8 @@ Ray ray_to(const HeightField& field, const Vec3f& to_lamp) {
           static_cast<float>(step_px * field.mm_per_pixel * lamp.z() / flat)};
 }
 
-// Returns the share of an extended lamp that is visible from a pixel. Follows the ray while the relief can
-// still rise above it.
+// Returns the share of the lamp's light that reaches a pixel. The lamp is extended, so it can be partly
+// hidden. The ray is followed while the relief can still rise above it.
 float lamp_share(const HeightField& field, int column, int row, const Ray& ray, float highest) {
   const float x = static_cast<float>(column) + .5F, y = static_cast<float>(row) + .5F;
   const auto width = static_cast<float>(field.z.width), height = static_cast<float>(field.z.height);
@@ -99,7 +99,7 @@ Light mean_light_around(const HeightField& field, const Image<Light>& light, int
   return count > 0 ? Light{sum.lamp / count, sum.sky / count} : Light{1, 1};
 }
 
-// Sets pixels just outside the front to the mean light of their neighbours on the front. Otherwise
+// Gives pixels just outside the front the mean light of their neighbours on the front. Otherwise
 // interpolation would spread the shadow beside the plate onto the plate.
 void light_edge(const HeightField& field, Image<Light>& light) {
   if (field.is_beside.empty()) return;

@@ -15,7 +15,8 @@
 namespace relievo {
 namespace {
 
-// Returns a front with these heights of the surface's points, mirrored if the plate is mirrored.
+// Returns the front of a plate. `heights` are the heights of the surface's points. The front is
+// mirrored if the plate is mirrored.
 HeightFieldMesh front_of(const Surface& surface, const PlateOptions& plate, double mm_per_unit,
                          std::span<const double> heights) {
   HeightFieldMesh front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
@@ -26,8 +27,8 @@ HeightFieldMesh front_of(const Surface& surface, const PlateOptions& plate, doub
   return plate.is_mirrored ? mirrored(std::move(front)) : front;
 }
 
-// Returns heights that differ from point to point inside the relief, and are 0 around it. Without them
-// make_plate() would take the relief for ground.
+// Returns heights that are 0 around the relief, and differ from point to point inside it. Without such
+// heights make_plate() would take the relief for ground.
 std::vector<double> uneven_heights(const Surface& surface) {
   std::vector<double> heights(surface.points.size());
   for (std::size_t i = 0; i < heights.size(); ++i)
@@ -39,7 +40,7 @@ std::vector<double> uneven_heights(const Surface& surface) {
   return heights;
 }
 
-// Returns the points of the front that the solid has, in the solid's order. make_plate() moves all of them by the
+// Returns the points of the front that the solid contains, in the solid's order. make_plate() moves all points by the
 // same vector, and leaves some out if there is no ground.
 std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid) {
   constexpr double rounding_mm = 1e-9;
@@ -51,7 +52,7 @@ std::vector<Index> points_kept(const HeightFieldMesh& front, const Solid& solid)
   return kept;
 }
 
-// Returns the number of points of the front. The points of the bottom follow them in the list.
+// Returns the number of points of the front. They come first in the solid's list; the points of the bottom follow.
 std::size_t front_points(const Solid& solid) {
   Index last = 0;
   for (std::size_t t = 0; t < solid.front_triangles; ++t)
@@ -59,7 +60,7 @@ std::size_t front_points(const Solid& solid) {
   return last + std::size_t{1};
 }
 
-// Returns the options with a rim of height 1 and no bevel, so that options that differ only in the rim's
+// Returns the options with a rim of height 1 and no bevel. So options that differ only in the rim's
 // height become equal.
 PlateOptions of_unit_rim(PlateOptions plate) {
   plate.rim.height_mm = 1;
@@ -109,10 +110,10 @@ Vec2 LivePlate::find_places(const Solid& solid) {
   return middle;
 }
 
-// Finds the points that make_plate() has added to the relief, where it divided triangles to follow the base.
+// Finds the points that make_plate() has added to the relief, because it divided triangles to follow the base.
 void LivePlate::find_added_points(const Solid& solid) {
   std::vector<std::uint8_t> is_added(places_.size(), 0);
-  for (const bool is_relief : {true, false})  // points where relief and ground meet belong to the ground
+  for (const bool is_relief : {true, false})  // points on a common border count as ground
     for (std::size_t t = 0; t < solid.front_triangles; ++t)
       if ((solid.regions[t] == Region::relief) == is_relief)
         for (const Index i : solid.triangles[t]) is_added[i] = is_relief;
@@ -123,7 +124,7 @@ void LivePlate::find_added_points(const Solid& solid) {
     AddedPoint added{i, {}, {}};
     std::array<double, 3> distances_sq;
     tree->nearest(places_[i], 3, added.from.data(), distances_sq.data());
-    for (std::size_t k = 0; k < 3; ++k)  // fourth powers: an added point lies between the two nearest ones
+    for (std::size_t k = 0; k < 3; ++k)  // mostly the two nearest points, which it lies between
       added.share[k] = static_cast<float>(1 / (distances_sq[k] * distances_sq[k] + 1e-12));
     const float sum = added.share[0] + added.share[1] + added.share[2];
     for (float& share : added.share) share /= sum;
@@ -133,7 +134,7 @@ void LivePlate::find_added_points(const Solid& solid) {
 
 // Computes the base under all points of the front, and the heights of the rim's points above the base.
 void LivePlate::find_base(const Solid& solid, const Base& base) {
-  constexpr double step_mm = .01;  // distance between the two places whose heights give a slope
+  constexpr double step_mm = .01;  // distance between the two positions whose heights give a slope
   const std::size_t count = places_.size();
   const auto place = [&](std::size_t i) -> Vec2 { return (solid.points[i] - solid.shift).head<2>(); };
   rise_.assign(count - relief_.size(), 0.F);
@@ -156,20 +157,20 @@ void LivePlate::find_base(const Solid& solid, const Base& base) {
   });
 }
 
-// Prepares the points for bending. Computes the normals of ground and rim from the bent solid.
+// Prepares the points for bending, and computes the normals of ground and rim from the bent solid.
 void LivePlate::find_wrap(Solid solid, const Wrap& wrap) {
   std::vector<Vec2> places = in_plane(solid.points);
   for (std::size_t i = 0; i < solid.points.size(); ++i) {
     const double z = i < relief_.size() ? 0 : solid.points[i].z() - solid.ground_mm;
     solid.points[i] = wrap.at(places[i], z);
   }
-  solid.ground_mm = std::numeric_limits<double>::infinity();  // no part of the ground stays level
+  solid.ground_mm = std::numeric_limits<double>::infinity();  // so that no part of the ground counts as level
   parts_ = plate_parts(solid);
   bent_.emplace(wrap, places);
 }
 
-// Returns the normal of the relief at a point of the front. Its slopes are those of the frame's normal plus those of
-// the base.
+// Returns the normal of the relief at a point of the front. The slopes of the result are the slopes of the frame's
+// normal plus those of the base.
 Vec3f LivePlate::normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const {
   Vec2f xy = stretch * normal.head<2>();
   if (options_.is_mirrored || options_.is_die) xy.x() = -xy.x();
@@ -222,7 +223,7 @@ Result<DrawnBody> LivePlate::body(const Shown& shown, double rim_mm) {
   return body;
 }
 
-// Bends a body. Its heights are those on the flat plate, and `bottom` is the height of its bottom there.
+// Bends a body. The body has the heights of the flat plate; `bottom` is the height of the flat plate's bottom.
 void LivePlate::bend(DrawnBody& body, float bottom) {
   std::vector<Vec3f> points(places_.size() + below_.size());
   parallel_for(points.size(), [&](std::size_t i) {

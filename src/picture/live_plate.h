@@ -1,5 +1,4 @@
-// Draws plates of any outline, on any base or around a wrap, with or without a rim, whose relief changes from frame to
-// frame.
+// Draws plates whose relief changes from frame to frame. Plates may have any outline, any base or wrap, and a rim.
 #pragma once
 
 #include <array>
@@ -16,22 +15,23 @@ namespace relievo {
 
 class LivePlate {
  public:
-  // Makes the plate of a surface; `mm_per_unit` is the length of the surface's unit. Mirrors the relief or makes a die
-  // of it if the options say so. A plate without ground must have a plane base and no wrap. Errors: those of
-  // make_plate() and wrap_plate(), except the error of a plate that would reach the wrap's axis.
+  // Makes the plate of a surface; `mm_per_unit` is the length of the surface's unit in mm. Mirrors the relief, or makes
+  // a die of it, if the options say so. A plate without ground must have a plane base and no wrap. Errors: those of
+  // make_plate() and wrap_plate(), except the error that a plate would reach the wrap's axis.
   static Result<LivePlate> make(const Surface& surface, const PlateOptions& plate, double mm_per_unit);
 
-  // Returns whether the plate was made with these options. If the picture need not be exact, the height of the rim
-  // may differ. The plate then has the bevel of the other height; if the rim is a die's groove, also another size.
+  // Returns whether the plate was made with these options. If the picture need not be exact, the height of the rim may
+  // differ. The plate then keeps the bevel of its own rim height; if the rim is a die's groove, it also keeps its own
+  // size.
   bool serves(const PlateOptions& plate, double mm_per_unit, bool is_exact) const;
 
-  // Returns the body with that relief and a rim of that height. It is valid until the next call. Errors: kind option if
-  // the body would reach the axis of its wrap.
+  // Returns the body with the relief `shown` and a rim of height `rim_mm`. It is valid until the next call. Errors:
+  // kind option if the body would reach the axis of its wrap.
   Result<DrawnBody> body(const Shown& shown, double rim_mm);
 
-  // Returns the smallest box around the origin that contains the last body.
+  // Returns the size of the smallest box that contains the last body and is centred at the origin.
   Vec3 size_around_ground() const;
-  // Returns the size of the last body, and the middle of its relief relative to the middle of the body.
+  // Returns the size of the last body, and the middle of its relief relative to the body's middle.
   PlacedRelief placed() const;
 
   DrawCache cache;
@@ -44,7 +44,7 @@ class LivePlate {
   Vec3f normal_on_base(std::size_t i, const Vec3f& normal, float stretch) const;
   void bend(DrawnBody& body, float bottom);
 
-  // A point between three others of the relief, from which it gets its height and its normal.
+  // A point of the relief whose height and normal are weighted means of those of three other points.
   struct AddedPoint {
     Index point;
     std::array<Index, 3> from;
@@ -55,14 +55,13 @@ class LivePlate {
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::vector<Index> relief_;      // the surface's points that the plate shows; they come first
+  std::vector<Index> relief_;      // the surface's points that the plate shows; they are its first points
   std::vector<AddedPoint> added_;  // points of the relief that are not points of the surface
-  std::vector<Vec2> places_;       // points of the front from the middle of the body, in mm; bent by body()
+  std::vector<Vec2> places_;       // positions of the front's points, from the middle of the body, in mm
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane
-  std::vector<Vec2f> slopes_;      // slopes of the base under these points; empty for a plane
-  std::vector<float>
-      rise_;  // heights above the base of the points that follow relief_, for a rim of height 1
-  std::vector<Vec2> below_;         // points of the bottom
+  std::vector<Vec2f> slopes_;      // slopes of the base under the points of the front; empty for a plane
+  std::vector<float> rise_;  // heights of the points after relief_ above the base, if the rim's height is 1
+  std::vector<Vec2> below_;  // points of the bottom
   std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();
   std::vector<float> heights_;

@@ -10,8 +10,7 @@ namespace {
 constexpr double frame_padding =
     .055;  // space for the shadow around the plate, as a share of the picture's shorter side
 
-// The plate's triangles are computed once, for a relief with this width. Options only move the plate's
-// corners.
+// The plate's triangles are computed only once, for a relief of this width. Options move only the plate's corners.
 constexpr double width_mm = 100;
 
 Mat3 rotation_of(const Camera& camera) {
@@ -29,8 +28,8 @@ Vec2 half_plate(const PlateMesh& mesh, const RenderOptions& options) {
 
 PlateParts parts_of_frames(const Solid& level, const Surface& surface) {
   PlateParts parts = plate_parts(level);
-  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then one of its
-  // corners is a corner of the plate.
+  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then it has a
+  // corner of the plate as one of its corners.
   const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
   for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
     if (surface.boundary.is_inside[t] && is_of_points(level.triangles[t])) parts.parts[t] = Part::relief;
@@ -81,9 +80,8 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   return body;
 }
 
-// An orbiting camera keeps the scale of the front view as long as the plate's corners stay in the picture.
-// The corners may be closer to the picture's edge than in the front view, where the plate's shadow needs
-// space.
+// An orbiting camera keeps the scale of the front view as long as the plate's corners stay in the picture. The corners
+// may come closer to the picture's edge than in the front view, which needs space for the plate's shadow.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
   constexpr double least_padding = .03;
   const double side = std::min(options.width, options.height);

@@ -17,15 +17,15 @@ namespace {
 
 constexpr double preview_padding =
     .06;  // space for the shadow around the plate, as a share of the picture's longer side
-// The limit for each of the two pictures, which have 3 samples per pixel in each direction.
+// The largest longer side of each of the two pictures, which have 3 samples per pixel in each direction.
 constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
 // Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is
-// darker at the bottom like a wall lit from above.
+// darker at the bottom, as on a wall lit from above.
 constexpr float brightest_wall = .90F, darkest_wall = .70F;
 
-// The oblique view is from above on the right, where the upper left lamp shows slopes and the plate's edge
-// best.
+// The oblique view is from above on the right, because there the upper left lamp shows slopes and the
+// plate's edge best.
 constexpr double oblique_yaw_deg = -35, oblique_pitch_deg = 20;
 
 Mat3 oblique_rotation() {
@@ -35,7 +35,7 @@ Mat3 oblique_rotation() {
       .matrix();
 }
 
-// Returns the part of a body below `most_z`.
+// Returns the part of a solid below `most_z`.
 Solid cut_open(const Solid& solid, double most_z) {
   Solid open{solid.points, {}};
   open.ground_mm = solid.ground_mm;
@@ -68,8 +68,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// Returns the transforms for two pictures of the same size with that longer side: one for the front view of
-// the first body, one for the oblique view of the other.
+// Returns the transforms for two pictures of the same size, whose longer side is `longer_side_px`. The
+// first picture is the front view of `front_body`, the second the oblique view of `oblique_body`.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();
@@ -85,7 +85,7 @@ std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, c
           ScreenTransform{width, height, std::min(scale, fit), rotation, middle, false}};
 }
 
-// Composites a picture with opacity over the background, starting at column `left`.
+// Composites a transparent picture over the background, starting at column `left`.
 void lay_on_wall(const Image8& picture, int left, Image8& image) {
   const DisplayTable& display = display_table();
   const auto lay_row = [&](std::size_t row) {
@@ -135,7 +135,7 @@ struct SolidRenderer::State {
   DrawCache cache = {};
   std::shared_ptr<const ToolReach> reach = {};
 
-  // Returns the size of the smallest box around the origin that contains the body.
+  // Returns the size of the smallest box that contains the body and is centred at the origin.
   static Vec3 size_around_ground(const DrawnBody& body) {
     Vec3 half = Vec3::Zero();
     for (const Triangle& t : body.triangles)

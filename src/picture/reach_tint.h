@@ -10,12 +10,11 @@ namespace relievo {
 
 class ReachTint {
  public:
-  // `front` is the box of the measured front in the body's coordinates. If `reach` is null, nothing is
-  // coloured.
+  // `front` is the box of the measured front in the body's coordinates. If `reach` is null, colours do not change.
   ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
 
-  // Returns the linear colour of a point on the front: orange to red if more than the tolerance is left
-  // there, otherwise `colour`.
+  // Returns the linear colour of a point on the front, given its colour without tint. If more material
+  // than the tolerance is left at the point, the result is orange to red.
   Vec3f operator()(const Vec3f& colour, const Vec3f& place) const;
 
  private:

@@ -13,7 +13,8 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the height field for profiles, which are shown with fewer pixels.
+// The longer side, in pixels, of the height field from which profiles are taken. Pictures of
+// profiles have fewer pixels.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {
@@ -26,15 +27,15 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// The lamp is nearer to the viewer than the lamp for reliefs, because large parts of a whole body face away
-// from the light.
+// The direction to the lamp. It is closer to the viewer's direction than the lamp for reliefs, because
+// large parts of a whole body face away from the light.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc, in sampling distances. With this radius, randomly scattered points leave few
 // gaps.
 constexpr double disc_radius = 1.7;
 
-// A point in the picture: position and depth in pixels, normal in view coordinates.
+// A point of the scan in the picture: position and depth in pixels, normal in view coordinates.
 struct Dot {
   Vec3f place, normal;
 };
@@ -44,11 +45,12 @@ struct Canvas {
   Image<Vec3f> normals;  // weighted sums
 };
 
-// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres are covered by the
-// dot, a disc in the surface. The weight falls from 1 at the disc's centre to 0 at its edge.
+// Calls f(pixel, depth, weight) for the pixels of rows [first, last) whose centres the dot covers. The dot
+// is drawn as a disc in the surface; `depth` is the disc's depth at the pixel. The weight falls from 1 at
+// the disc's centre to 0 at its edge.
 template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
-  constexpr float least_z = .2F;  // discs seen more obliquely would leave gaps
+  constexpr float least_z = .2F;  // limits the tilt, because tilted discs leave gaps
   const Vec2f slope = Vec2f(-dot.normal.x(), dot.normal.y()) / std::max(dot.normal.z(), least_z);
   const float per_square = 1 / (radius * radius);
   const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));
@@ -66,8 +68,8 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Draws the dots in two passes (surface splatting): first the front-most depths, then the mean normals of the
-// dots near these depths.
+// Draws the dots in two passes (surface splatting). The first finds the front-most depth of each pixel, the
+// second the mean normal of the dots near this depth.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {
@@ -108,7 +110,7 @@ void paint(const Canvas& canvas, Image8& picture) {
 struct FrameRenderer::State {
   std::shared_ptr<const Surface> surface;
   PlateMesh mesh{plate_mesh(*surface)};
-  std::vector<float> depths{depths_of(*surface)};  // depths of the model itself
+  std::vector<float> depths{depths_of(*surface)};  // depths of the model without compression
   float deepest = std::ranges::max(depths);
   DrawCache cache = {};
   CachedVisibility profile = {};

@@ -7,8 +7,8 @@
 
 namespace relievo {
 
-// An orthographic projection: pixel = centre of the picture + pixels_per_mm * R_screen_body * (point - pan),
-// with y downwards.
+// An orthographic projection of a body. The position in the picture is its centre + pixels_per_mm *
+// R_screen_body * (point - pan), with y downwards.
 struct ScreenTransform {
   // Points are clamped to this distance from the picture's centre, in pixels. Otherwise the rasteriser's
   // integers could overflow.
@@ -26,8 +26,8 @@ struct ScreenTransform {
             height / 2.0 - std::clamp(p.y(), -farthest_px, farthest_px), p.z()};
   }
 
-  // Returns the point of the body for a position in the picture. In the front view its z is unknown and set
-  // to 0.
+  // Returns the point of the body at a position in the picture. In the front view the z of the point is
+  // unknown and set to 0.
   Vec3f to_body(double x, double y, double z) const {
     if (is_front)
       return {static_cast<float>((x - width / 2.0) * (1 / pixels_per_mm) + pan.x()),
@@ -38,7 +38,7 @@ struct ScreenTransform {
 
   Vec3f to_viewer() const { return R_screen_body.row(2).transpose().cast<float>(); }
 
-  // Returns the transform for the same picture with `times` as many pixels per side.
+  // Returns the transform for the same picture with `times` as many pixels along each side.
   ScreenTransform finer(int times) const {
     ScreenTransform out = *this;
     out.width *= times;

@@ -5,30 +5,30 @@
 namespace relievo {
 namespace {
 
-// Strengths of lamp and sky. Their sum is 1, so a surface that faces both has the brightness of its material,
-// and nothing is clipped. With less sky light, shadows lose their detail; with more, the relief looks flat.
+// Strengths of lamp and sky. Their sum is 1, so a surface that faces both has the brightness of its material, and no
+// value is clipped. With less sky light, shadows would lose their detail; with more, the relief would look flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
 // The direction of the brightest sky: above, and slightly away from the lamp, so that slopes facing away from
-// the lamp are modelled, too.
+// the lamp get some shading, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and normal
-// is `usual_lamp_z`; that lamp is as far to the left and above as in front.
+// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the plate's
+// normal is `usual_lamp_z`. At this cosine, the lamp is as far to the left and as far above as in front.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
-// The exponent is between 1 (linear) and 2.2 (sRGB). Most of a relief has middle tones, which 2.2 would make
-// flat and pale.
+// The exponent is between 1 (linear) and 2.2 (sRGB). Most of a relief has middle tones, which an exponent of
+// 2.2 would make flat and pale.
 constexpr float display_gamma = 1.45F;
 
-// Brightness above this value is compressed gradually instead of being clipped.
+// Brightness above this value is compressed gradually, because clipping would be visible.
 constexpr float knee = .85F;
 
 const Vec3f plaster_colour(.93F, .91F, .87F);
 
-// Colours of light after thin and after thick porcelain. Thick porcelain transmits exp(-1.45), about a
-// quarter, as in lithophanes.
+// Colours of light that has passed thin and thick porcelain. Thick porcelain transmits exp(-1.45),
+// about a quarter of the light, as in lithophanes.
 const Vec3f thin_porcelain(1, .965F, .89F), thick_porcelain(.62F, .33F, .16F);
 constexpr float porcelain_absorption = 1.45F;
 
@@ -44,20 +44,20 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// The environment that metal and varnish reflect: a soft box around the lamp, a lower and dimmer reflector on the
-// other side, walls that are bright above and dark below, and the dark room beside the plate. The brightness
-// of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values
-// were chosen by eye; silver was compared with a photograph of coins.
+// The environment that metal and varnish reflect. It has a soft box around the lamp, and a lower and dimmer reflector
+// on the other side. Its walls are bright above and dark below, and the room beside the plate is dark. The brightness
+// of box and reflector rises from 0 at the cosine `edge` to its full value at the cosine `full`. All values were chosen
+// by eye; silver was compared with a photograph of coins.
 constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// The viewer's distance, in units of half the body's longer side. Because it is finite, different parts of
-// level ground reflect different parts of the room, and the ground does not have a uniform tone.
+// The viewer's distance, in units of half the body's longer side. Because the distance is finite, different
+// parts of level ground reflect different parts of the room, so the ground does not have a uniform tone.
 constexpr float viewer_distance = 3.6F;
 
 struct Metal {
-  Vec3f bare, worn;       // colours of the bare metal, and of edges polished by hands
+  Vec3f bare, worn;       // colours of the bare metal and of polished edges
   Vec3f patina;           // colour in hollows
   float diffuse, mirror;  // strengths of diffuse and of mirror reflection
   float mottle;           // variation of the patina
@@ -70,7 +70,7 @@ const Metal& metal_of(Material material) {
 }
 
 // Returns value noise: random values in [0, 1] at the corners of a square grid, interpolated smoothly. If
-// `period` is positive, the values repeat after that many cells.
+// `period` is positive, the values repeat after `period` cells.
 float smooth_noise(float x, float y, int period = 0) {
   const auto corner = [period](int i, int j) {
     if (period > 0) i %= period, j %= period;
@@ -86,9 +86,9 @@ float smooth_noise(float x, float y, int period = 0) {
   return low + t * (high - low);
 }
 
-// Patches of patina, in [-0.75, 0.75]: noise with scales of 3 mm and half a millimetre, repeating after 64
-// mm. The grids are rotated, because the eye notices horizontal and vertical grids. The values are tabulated,
-// because computing the noise would take half of a picture's time.
+// Tabulates patches of patina, in [-0.75, 0.75]. They are noise with scales of 3 mm and half a millimetre,
+// which repeats after 64 mm. The grids of the noise are rotated, because the eye notices horizontal and
+// vertical grids. The table is used because computing the noise would take half of a picture's time.
 class Patches {
  public:
   Patches() : values_(static_cast<std::size_t>(side) * side) {
@@ -101,7 +101,7 @@ class Patches {
   }
 
   float at(float x_mm, float y_mm) const {
-    constexpr float before = 1 << 16;  // makes the value positive within 8 m; std::floor would be slower
+    constexpr float before = 1 << 16;  // keeps values positive, so that casts round down
     const float x = x_mm * per_mm + before, y = y_mm * per_mm + before;
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);
@@ -111,7 +111,7 @@ class Patches {
   }
 
  private:
-  // A rotated grid. The side of the table is `period` times the vector (right, up), in cells of the grid.
+  // A rotated grid of noise. One side of the table is the vector `period` * (right, up), in cells of the grid.
   struct Slant {
     float right, up;
     int period;
@@ -138,7 +138,7 @@ const Patches& patches() {
   return table;
 }
 
-// Returns the light from a direction of the room, given as a unit vector.
+// Returns the light from a direction of the room. Both directions are unit vectors.
 float light_from(const Vec3f& direction, const Vec3f& to_lamp) {
   const Vec3f to_reflector = Vec3f(-.8F * to_lamp.x(), -.45F * to_lamp.y() - .1F, .55F).normalized();
   const float up = smooth_step(-.8F, 1.F, direction.y() - .35F * direction.x());
@@ -188,7 +188,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       environment_(material == Material::plaster ? EnvironmentLight() : EnvironmentLight(to_lamp)) {}
 
-// Returns the light of lamp and sky on the point `lit`, from its normal and its shadows.
+// Returns the light of lamp and sky on the point `lit`, reduced by its normal and its shadows.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};
@@ -216,7 +216,7 @@ float Shader::mirrored_light(const Lit& lit) const {
   return environment_(2 * cosine * lit.normal.head<2>() - to_viewer);
 }
 
-// Patina remains in patches in hollows and on low ground; hands have polished the raised parts.
+// Patina covers hollows and low ground in patches; the raised parts have been polished by hands.
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
   const Light light = facing(lit);
@@ -231,9 +231,8 @@ Vec3f Shader::metal(const Lit& lit) const {
 }
 
 // The grain runs vertically and bends slightly. Growth rings are slanted in the board, so that they shift
-// sideways with the depth of the carving. Lengths are in millimetres: rings are 3.3 mm apart and bend over
-// about 30 and 80 mm; the noise of fibres and pores is ten to twenty times as long as wide. All values were
-// chosen by eye.
+// sideways with the depth of the carving. Rings are 3.3 mm apart, and bend over lengths of about 30 and 80
+// mm. The noise of fibres and pores is ten to twenty times as long as wide. All values were chosen by eye.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
   const float bend = 4 * smooth_noise(x * .03F + 7, y * .012F) + .5F * smooth_noise(x * .11F, y * .03F);

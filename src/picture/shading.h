@@ -1,5 +1,5 @@
-// Computes colours from the lamp, the sky, the relief's shadows on itself, and the materials, for all
-// pictures.
+// Computes colours for all pictures. They depend on the lamp, the sky, the relief's shadows on
+// itself, and the materials.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,16 @@
 
 namespace relievo {
 
-// The light that arrives at a point: from the lamp, and from the sky.
+// The light that arrives at a point from the lamp and from the sky.
 struct Light {
   float lamp = 0, sky = 0;
 };
 
-// Shares of light in [0, 1] over the plane of the front; 1 is full light. They depend on the position but not
-// on the viewer, so all views of a plate have the same shadows.
+// The shares of full light, in [0, 1], over the plane of the front. They depend on the position but not on
+// the viewer, so all views of a plate have the same shadows.
 class LightMap {
  public:
-  // `to_lamp` has unit length. If the field has no pixels, the light is full everywhere.
+  // `to_lamp` has unit length. If the field has no pixels, all points get full light.
   LightMap(const HeightField& field, const Vec3f& to_lamp);
 
   // Returns the light at a point of the front, interpolated between pixels.
@@ -28,25 +28,25 @@ class LightMap {
 
  private:
   Image<Light> light_;
-  Vec2f origin_ = Vec2f::Zero();  // pixel at the origin of the front's plane
+  Vec2f origin_ = Vec2f::Zero();  // the pixel at the origin of the plane of the front
   float pixels_per_mm_ = 1;
 };
 
 // A point of a body, and the light on it.
 struct Lit {
   Vec3f normal;
-  Light light;       // the shares of light that reach the point
+  Light light;       // the shares of full light that reach the point
   Vec3f place;       // position on the plate, in mm
-  float height = 0;  // as a share of the relief's height; 0 at its lowest point
-  // Offset from the middle, in units of half the body's longer side; in [-1, 1].
+  float height = 0;  // as a share of the relief's height; 0 at the relief's lowest point
+  // Offset from the middle of the body, in units of half the body's longer side; in [-1, 1].
   Vec2f from_middle = Vec2f::Zero();
 };
 
 // Returns the vector scaled to unit length; zero for a zero vector.
 Vec3f direction_of(const Vec3f& light);
 
-// The light from the environment of a body, as a function of direction. It is tabulated, because every pixel needs
-// it.
+// The light that a body receives from its environment, as a function of direction. It is tabulated, because every pixel
+// needs it.
 class EnvironmentLight {
  public:
   // Makes an environment that is dark everywhere.
@@ -54,12 +54,12 @@ class EnvironmentLight {
 
   explicit EnvironmentLight(const Vec3f& to_lamp);
 
-  // Returns the light from a direction, given as x and y of a unit vector with positive z. For longer
-  // vectors, returns the light from the nearest such direction.
+  // Returns the light from a direction. The direction is given as the x and y of a unit vector with positive
+  // z. If they are longer than a unit vector, returns the light from the nearest valid direction.
   float operator()(const Vec2f& direction) const;
 
  private:
-  static constexpr int cells = 48;  // cells per side, over [-1, 1]
+  static constexpr int cells = 48;  // cells per side of a table over [-1, 1]
   std::vector<float> light_;
 };
 
@@ -84,7 +84,7 @@ class Shader {
   EnvironmentLight environment_;
 };
 
-// Converts linear values to display values.
+// Converts linear brightness to display values.
 class DisplayTable {
  public:
   DisplayTable();

@@ -14,8 +14,8 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Returns the cubic B-spline's weights of four consecutive values, for a position between the second (t = 0)
-// and the third (t = 1).
+// Returns the weights of four consecutive values in a cubic B-spline, for a position between the second
+// value (t = 0) and the third (t = 1).
 Weights weights_at(double t) {
   const double s = 1 - t;
   return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
@@ -26,7 +26,7 @@ constexpr double steepest = 5.671;  // tan 80 degrees; a relief on a steeper bas
 constexpr double least_mm = 1e-3, most_mm = 1e6;
 constexpr double default_angle_deg = 15;
 
-// Checks the range of each number, and that no two numbers contradict each other.
+// Checks that each number is in its range, and that no two numbers contradict each other.
 Result<void> check_numbers(const BaseOptions& options) {
   for (const auto& [name, mm] : {std::pair{"height", options.height_mm},
                                  {"diameter", options.diameter_mm},
@@ -44,7 +44,7 @@ Result<void> check_numbers(const BaseOptions& options) {
   return {};
 }
 
-// Returns the unit vector perpendicular to the base's straight lines; exact for 90 and 180 degrees.
+// Returns the unit vector perpendicular to the base's straight lines. It is exact for 90 and 180 degrees.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();
@@ -73,9 +73,9 @@ std::vector<ShapeNumber> numbers_of(BaseOptions& base, std::optional<double>& di
 
 }  // namespace
 
-// A cubic B-spline surface whose control points are the map's values. It is smooth and stays within the range
-// of neighbouring values, so it smooths the steps of rounded values. Beyond the border the outermost values
-// are repeated.
+// A cubic B-spline surface whose control points are the map's values. It is smooth, so it hides the steps
+// between rounded values. It stays within the range of neighbouring values. Beyond the border the outermost
+// values are repeated.
 class Base::ImageSurface {
  public:
   // Centres the map on a plate of the given size and scales it until it covers the plate. Scales the values
@@ -129,7 +129,7 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // half of the plate's extent perpendicular to the straight lines; a dome's radius
+  double half_extent = 0;  // perpendicular to the straight lines; a dome: the plate's radius
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// A used point as a file stores it.
+// A used point with its coordinates rounded as in a file.
 struct Stored {
   std::array<float, 3> at;
   Index point;
@@ -41,7 +41,7 @@ std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
 }
 
 void separate_coincident(Solid& solid, double middle_z) {
-  const int most_passes = 32;  // a moved point may coincide with a third point; the next pass separates those
+  const int most_passes = 32;  // a moved point may coincide with a third point, so passes are repeated
   for (int pass = 0; pass < most_passes; ++pass) {
     const auto pairs = find_coincident_points(solid);
     if (pairs.empty()) return;

@@ -23,7 +23,7 @@ struct Split {
   // if the edge is not split.
   std::array<double, 3> shares = {};
   std::optional<Vec3> place;  // a new point inside the triangle, if no edge is split
-  double left_mm = 0;         // largest sampled deviation, if nothing is split
+  double left_mm = 0;         // if nothing is split: the largest sampled deviation
 };
 
 // A new point on the edge between two others.
@@ -41,9 +41,9 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-// Works in rounds. Each round samples the new triangles, adds all points that they need, and splits the
-// triangles. Triangles are examined separately, but both triangles of an edge sample it at the same points,
-// so they split it at the same point. That avoids T-junctions.
+// Refines in rounds. Each round samples the new triangles, adds all points that they need, and splits the
+// triangles. Triangles are examined separately, but both triangles of an edge sample the edge at the same
+// points, so they split it at the same point. That avoids T-junctions.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
@@ -97,10 +97,10 @@ class Refiner {
     return split;
   }
 
-  // Returns the share of an edge at which to split it, the same for both its triangles; 0 if the edge is
-  // within the tolerance. If the edge crosses a crease, only the crossing is measured: the deviation is
-  // largest there, and splits at midpoints would approach the crease slowly. Other edges are sampled twice
-  // per feature, so that a wave with a zero at the midpoint is noticed.
+  // Returns where to split an edge, as a share of its length; 0 if the edge is within the tolerance. The
+  // result is the same for both triangles of the edge. If the edge crosses a crease, only the crossing is
+  // measured, because the deviation is largest there, and splits at midpoints would approach the crease
+  // slowly. Other edges are sampled twice per feature, so that a wave that is 0 at the midpoint is noticed.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];
@@ -119,9 +119,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside the triangle that deviates too much. Samples lie on lines parallel to the
-  // longest edge. Such samples are needed only if all three edges are within the tolerance, for example on
-  // top of a hill.
+  // Returns the first sample inside the triangle whose deviation exceeds the tolerance. Samples lie on lines
+  // parallel to the longest edge. They are needed only if all three edges are within the tolerance, for
+  // example on top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -207,8 +207,8 @@ class Refiner {
     for (std::size_t e = 0; e < 3; ++e) parts_.push_back({t[e], t[(e + 1) % 3], within});
   }
 
-  // Splits a triangle into two to four triangles. `middle` contains the new point on each edge, or no_index.
-  // A quadrilateral is divided by its shorter diagonal, because the longer one would make needles thinner.
+  // Splits a triangle into two to four triangles. `middle` contains the new point on each edge, or no_index. A
+  // quadrilateral is divided by its shorter diagonal, because the longer diagonal would give thinner triangles.
   void split(const Triangle& t, const std::array<Index, 3>& middle) {
     const auto count = std::ranges::count_if(middle, [](Index i) { return i != no_index; });
     if (count == 0) return;
@@ -217,7 +217,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // If one edge is split, e is that edge. If two are split, they are e and the next one.
+    // If one edge is split, it gets number e. If two are split, they get the numbers e and e + 1.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];
@@ -234,7 +234,7 @@ class Refiner {
       parts_.insert(parts_.end(), {{a, m, c}, {m, n, c}});
   }
 
-  // Replaces triangle t by its parts: the first part gets index t, the others are appended.
+  // Replaces triangle t by its parts: the first part gets index t, the others are appended to the triangles.
   void replace(Index t) {
     flat_.triangles[t] = parts_[0];
     active_.push_back(t);
@@ -259,7 +259,7 @@ class Refiner {
     outline_ = std::move(longer);
   }
 
-  // Sorts the triangles by their original triangles, so that the front's triangles come first again.
+  // Sorts the triangles by the index of their original triangle, so that the front's triangles come first again.
   void restore_order() {
     std::vector<Index> order = all_indices(origin_.size());
     std::ranges::stable_sort(order, {}, [&](Index t) { return origin_[t]; });
@@ -281,7 +281,7 @@ class Refiner {
   const Deformation& deformation_;
   double tolerance_, left_mm_ = 0;
   std::vector<Vec3> deformed_;    // deformed points
-  std::vector<Index> origin_;     // the original triangle of each triangle
+  std::vector<Index> origin_;     // per triangle: the index of its original triangle
   std::vector<Index> active_;     // the triangles that are new in this round
   std::vector<Between> between_;  // this round's new points on edges, sorted by the edges' ends
   Index first_between_ = 0, first_within_ = 0;

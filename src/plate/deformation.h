@@ -1,5 +1,5 @@
-// Refines flat triangles until they follow a deformation, such as onto a curved base or around a wrap.
-// Tested by plate_base_test and wrap_test.
+// Refines flat triangles until they follow a deformation, for example onto a curved base or around a
+// wrap. Tested by plate_base_test and wrap_test.
 #pragma once
 
 #include <functional>
@@ -14,20 +14,20 @@ namespace relievo {
 // The corners of a convex polygon, as indices of a solid's points, counter-clockwise seen from +Z.
 using IndexPolygon = std::vector<Index>;
 
-// Maps the points of a flat body to the points of a curved one. All functions may be called concurrently.
+// Maps a flat body to a curved one. All functions may be called concurrently.
 struct Deformation {
-  std::function<Vec3(const Vec3&)> at;  // maps a point of the flat body to the curved one
+  std::function<Vec3(const Vec3&)> at;  // maps a point of the flat body to its place in the curved one
   // Returns the position, in (0, 1), where the segment between two points crosses a crease; nothing if it
-  // crosses none. May be null.
+  // crosses none. If the function is null, there are no creases.
   std::function<std::optional<double>(const Vec3&, const Vec3&)> crease_between = nullptr;
-  // An approximate length in mm over which the deformed surface curves in one direction only. It determines
-  // the distance between samples of the error.
+  // A length in mm below which the deformed surface curves in one direction only, approximately. It
+  // determines the distance between the samples of the deviation.
   double min_feature_mm = std::numeric_limits<double>::infinity();
 };
 
-// The share of the tolerance that edges may use. On an evenly curved surface a triangle's interior deviates
-// by up to 4/3 as much as its edges. So if the edges stay within 3/4 of the tolerance, the interior stays
-// within all of it.
+// The share of the tolerance that edges may use. On an evenly curved surface the interior of a triangle
+// deviates by up to 4/3 as much as its edges. So if the edges stay within 3/4 of the tolerance, the
+// interior stays within the whole tolerance.
 inline constexpr double share_of_edges = .75;
 
 // Subdivides the flat triangles until the deformed mesh deviates from the deformed surface by at most

@@ -17,9 +17,9 @@
 namespace relievo {
 namespace {
 
-// The plate is thinnest for the brightest 2 % of the points; otherwise a few highlights would leave
-// everything else dark. It is thickest for the darkest tenth of the points, or for all points below a tenth
-// of the highlights' brightness if those are fewer.
+// The shares of points at which brightness is clipped. The plate is thinnest for the brightest 2 % of the points;
+// otherwise a few highlights would leave everything else dark. It is thickest for the darkest tenth of the points. If
+// the points below a tenth of the highlights' brightness are fewer, it is thickest for these instead.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 
@@ -35,7 +35,7 @@ struct Range {
   double darkest, brightest;
 };
 
-// Returns the brightness at which the plate is thickest and thinnest. Points on the outline are ignored.
+// Returns the brightnesses at which the plate is thickest and thinnest. Points on the outline are ignored.
 Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_boundary) {
   std::vector<double> inside;
   for (std::size_t i = 0; i < bright.size(); ++i)
@@ -45,7 +45,7 @@ Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_
   return {std::clamp(dark, least_dark_of_bright * brightest, dark_of_bright * brightest), brightest};
 }
 
-// Returns the darkness: 0 for the brightest points, 1 for the darkest; in between it is linear in the
+// Returns the darkness: 0 for the brightest points, 1 for the darkest. In between it is linear in the
 // logarithm of the brightness.
 double darkness(double bright, const Range& range) {
   if (!(range.brightest > 0)) return 1;
@@ -58,7 +58,7 @@ double darkness_of_pixel(const Colour& colour) {
   return 1 - (.2126 * colour[0] + .7152 * colour[1] + .0722 * colour[2]) / 255;
 }
 
-// Returns the darkness of each point of a model under a lamp.
+// Returns the darkness of each point of a surface under the lamp.
 std::vector<double> darkness_of_model(const Surface& surface) {
   std::vector<double> values(surface.points.size());
   parallel_for(values.size(), [&](std::size_t i) {

@@ -15,10 +15,10 @@
 namespace relievo {
 namespace {
 
-constexpr double most_points = 2e5;  // points of the ground; a relief has about as many
+constexpr double most_points = 2e5;  // most points of the ground; a relief has about as many
 
-// Returns whether three edges of length `step` from this point deviate by no more than refine() allows. Edges
-// across a crease are ignored, because refine() splits them there.
+// Returns whether three edges of length `step` from the point `from` deviate by no more than refine() allows.
+// Edges across a crease are ignored, because refine() splits them at the crease.
 bool is_fine(const Deformation& deformation, const Vec3& from, double step, double tolerance_mm) {
   for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
     const Vec3 to = from + way;
@@ -51,7 +51,7 @@ class StaggeredLattice {
                             1 + static_cast<int>(box.size().y() / row_), std::uint8_t{1});
   }
 
-  // Removes the points within a circle, and those less than a third of the spacing outside it.
+  // Removes the points within a circle, and those outside it by less than a third of the spacing.
   void clear(const Vec2& centre, double radius) {
     const double wide = radius + spacing_ / 3;
     const int first = row_of(centre.y() - wide), last = row_of(centre.y() + wide) + 1;
@@ -87,7 +87,7 @@ class StaggeredLattice {
 };
 
 // Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
-// all points of the front first, including unused ones, and then the points of the ground.
+// all points of the front first, including the unused ones, then the points of the ground.
 std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
   const std::vector<std::uint8_t> is_used = used_points(front.points.size(), front.triangles);
   std::vector<Index> indices = indices_where(is_used.size(), [&](Index i) { return is_used[i] != 0; });
@@ -102,14 +102,14 @@ std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vect
   return triangles;
 }
 
-// Triangles that cover the polygon inside the rim; the relief's triangles come first.
+// Triangles that cover the polygon inside the rim. The relief's triangles come first, then those of the ground.
 struct Cover {
   std::vector<Triangle> triangles;
   std::size_t relief = 0;  // the number of the relief's triangles
 };
 
-// Returns whether the triangles are a Delaunay triangulation. Points on a common circle may be triangulated
-// in any way.
+// Returns whether the triangles are a Delaunay triangulation. If four points lie on a common circle, both
+// diagonals count as Delaunay.
 bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   const auto at = [&](Index i) { return Vec2(points[i].head<2>()); };
   bool is_delaunay = true;
@@ -129,10 +129,10 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Combines the given relief with the ground triangles of the triangulation, if their edges match. If they do
-// not match and the relief is Delaunay, points on a common circle were triangulated differently; then the
-// whole triangulation is returned. Returns nothing if the relief is not Delaunay and does not match, or if a
-// triangle connects a new point with a point above the ground.
+// Combines the relief's triangles with the ground's triangles of the triangulation, if their edges match. If
+// they do not match and the relief is Delaunay, points on a common circle were triangulated differently;
+// then the whole triangulation is returned. Returns nothing if they do not match and the relief is not
+// Delaunay. Also returns nothing if a triangle connects a new point with a point above the ground.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the front's triangles in pixel coordinates. Heights are measured from the lowest point to use the
-// digits of single precision well.
+// Returns the front's triangles in pixel coordinates. Heights are measured from the lowest point, because
+// single precision is finest near 0.
 RasterInput front_input(const Solid& solid, const HeightField& field) {
   RasterInput input;
   input.triangles = std::span(solid.triangles).first(solid.front_triangles);
@@ -55,7 +55,8 @@ class FieldRows {
  public:
   FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
 
-  // Raises the pixels whose centre is in the triangle or on its edge to the triangle's height there.
+  // Draws a triangle: raises each pixel whose centre is in the triangle or on its edge to the
+  // triangle's height at the centre.
   void enter(const std::array<Vec3, 3>& corners) {
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),
@@ -65,7 +66,7 @@ class FieldRows {
   }
 
  private:
-  // Tolerance in pixels. With it, a centre on an edge belongs to both triangles in spite of rounding.
+  // Tolerance in pixels. It makes a centre on an edge belong to both triangles in spite of rounding.
   static constexpr double rounding = 1e-9;
   static int first_from(double centre) { return static_cast<int>(std::ceil(centre - rounding)); }
   static int end_after(double centre) { return static_cast<int>(std::floor(centre + rounding)) + 1; }
@@ -99,7 +100,7 @@ HeightField flat_height_field(const Box& box, const FieldSampling& sampling) {
   const bool has_pitch = sampling.mm_per_pixel > 0;
   if (!(longer_mm > 0) || (!has_pitch && sampling.longer_side_px < 1)) return field;
   field.mm_per_pixel = has_pitch ? sampling.mm_per_pixel : longer_mm / sampling.longer_side_px;
-  // Rounding may store a size of a whole number of pixels slightly too large, which must not add a pixel.
+  // Rounding may make a size slightly larger than a whole number of pixels. That must not add a pixel.
   constexpr double rounding_px = 1e-3;
   const auto pixels = [&](double mm) {
     const double count = mm / field.mm_per_pixel;

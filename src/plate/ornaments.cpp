@@ -15,8 +15,8 @@
 namespace relievo {
 namespace {
 
-constexpr double rounding = 1.002;  // slopes may exceed the walls' by this factor, due to rounding
-constexpr double clear_mm = .02;    // least distance of shapes from the relief, the rim and each other
+constexpr double rounding = 1.002;  // rounding may make slopes exceed those of the walls by this factor
+constexpr double clear_mm = .02;    // least distance of shapes from relief, rim and each other
 
 struct LevelGround {
   std::vector<std::uint8_t> is_ground;  // per triangle
@@ -48,7 +48,7 @@ std::unexpected<Error> touching(const RaisedShape& shape, std::string_view what)
                           "ornaments, inset) gives room"));
 }
 
-// Checks that shapes lie on level ground.
+// Checks that shapes lie on level ground and keep clear of everything else.
 class Surroundings {
  public:
   Surroundings(const Solid& surface, const LevelGround& ground, std::span<const Vec2> inner)
@@ -84,12 +84,12 @@ class Surroundings {
   std::vector<Vec2> corners_;
 };
 
-// The points and edges of new ground. Points of the surface come first, in the order of `old`.
+// The points and edges of new ground. The kept points of the surface come first, in the order of `old`.
 struct NewGround {
   std::vector<Index> old;  // indices of the surface's points that are kept
   std::vector<Vec2> plane;
   std::vector<double> heights;  // heights of the added points
-  std::vector<EdgeEnds> edges;  // edges of the ground's boundary come first
+  std::vector<EdgeEnds> edges;  // the edges of the ground's boundary come first
   std::size_t border_edges = 0;
 };
 
@@ -137,7 +137,7 @@ class GroundMaker {
     return {};
   }
 
-  // Returns the slope of the wall of a shape between the previous level and this one.
+  // Returns the slope of a shape's wall between the previous level and the level `level`.
   static double rise(const RaisedShape& shape, std::size_t level) {
     const WallLevel &low = shape.levels[level - 1], &high = shape.levels[level];
     return std::abs(high.height_mm - low.height_mm) / (high.distance_mm - low.distance_mm);
@@ -209,9 +209,8 @@ class GroundMaker {
     return is_within;
   }
 
-  // Limits the slopes of triangles where walls meet. There an edge between points of two walls can make a
-  // triangle steeper than the walls. The heights must also stay within their range, so slopes and heights are
-  // limited alternately.
+  // Limits the slopes of triangles where walls meet. An edge between points of two walls can make a triangle steeper
+  // than both walls. The heights must also stay within their range, so slopes and heights are limited alternately.
   void limit(std::span<const Triangle> triangles) {
     const std::size_t kept = new_.old.size();
     std::vector<double> heights(kept, 0);
@@ -244,7 +243,7 @@ class GroundMaker {
     return {};
   }
 
-  // Replaces the old ground triangles by the new ones, whose corners are indices of the new ground.
+  // Replaces the old triangles of the ground by `ground`, whose corners are indices of the new ground's points.
   void replace_ground(std::span<const Triangle> ground) {
     std::vector<Triangle>& triangles = surface_.triangles;
     std::vector<Region>& regions = surface_.regions;

@@ -14,26 +14,26 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-// The largest distance of a curve from its inscribed polygon is finest_mm or finest_share of the radius,
-// whichever is more. Errors of machining and polishing are larger than finest_mm. For radii above 9 m the
-// limit is finest_share, the precision of files.
+// The largest distance of a curve from its inscribed polygon is the larger of finest_mm and finest_share
+// of the radius. finest_mm is below the errors of machining and polishing. finest_share is the precision
+// of files; it decides for radii above 9 m.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
-// The distance of a line from the centre as a function of the outline's size: offset + growth * size.
+// The distance of a line from the centre, as a function of the outline's size: offset + growth * size.
 struct Distance {
   double offset = 0, growth = 1;
 
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex outline that is scaled by `size`: the line of the side, and the parallel tangent of
-// the curve. They coincide where the outline is straight.
+// One side of a convex outline that grows with its size. `line` is the line of the side, `tangent` the
+// parallel tangent of the curve. They coincide where the outline is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
 };
 
-// The bounding box of points, given by its centre and half its size.
+// The bounding box of points, as its centre and half its size.
 struct Frame {
   Vec2 centre = Vec2::Zero(), half = Vec2::Zero();
 };
@@ -44,15 +44,15 @@ Frame frame_around(Points points) {
   return {(min + max) / 2, (max - min) / 2};
 }
 
-// A regular polygon in the unit circle. Four of its corners lie on the axes. Its sides are in
-// counter-clockwise order.
+// A regular polygon with corners on the unit circle. Four of the corners lie on the axes. The sides
+// are in counter-clockwise order.
 struct CircleSides {
   std::vector<Vec2> normals;  // unit length
   double distance = 1;        // distance of the sides from the centre
 };
 
-// Returns a polygon in the unit circle. It has so many sides that, scaled to the radius, it deviates from the
-// circle by at most finest_mm or finest_share of the radius, whichever is more.
+// Returns a polygon in the unit circle that approximates a circle of the given radius. If it is scaled to this radius,
+// its deviation from the circle is at most the larger of finest_mm and finest_share of the radius.
 CircleSides circle_sides(double radius) {
   const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
   const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
@@ -65,9 +65,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre of the smallest enclosing circle of the points, in coordinates divided by `scale`, among
-// circles centred midway between left and right. The smallest of all circles could be visibly off that
-// middle.
+// Returns the centre of the smallest circle around the points among the circles that are centred midway
+// between left and right. The smallest of all circles could be visibly off this middle. The circles are
+// measured in coordinates divided by `scale`, so that they can stand for ellipses.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -77,7 +77,7 @@ Vec2 round_centre(Points points, const Vec2& scale) {
     return distance_sq;
   };
   double low = frame.centre.y() - frame.half.y(), high = frame.centre.y() + frame.half.y();
-  const int steps = 100;  // each step reduces the interval to two thirds
+  const int steps = 100;  // each step shortens the interval to two thirds
   for (int i = 0; i < steps; ++i) {
     const double third = (high - low) / 3;
     if (farthest(low + third) > farthest(high - third))
@@ -125,7 +125,7 @@ std::vector<Side> sides_of_hexagon(bool is_pointed) {
   return sides;
 }
 
-// Returns the smallest size at which the curve is at least the margin away from every point.
+// Returns the smallest size at which the distance of the curve from every point is at least the margin.
 double size_around(Points points, const Vec2& centre, const std::vector<Side>& sides, double margin_mm) {
   double size = 0;
   for (const Side& side : sides) {
@@ -137,7 +137,8 @@ double size_around(Points points, const Vec2& centre, const std::vector<Side>& s
 }
 
 std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
-  // Two arcs may meet where the straight side between them has no length.
+  // Two arcs meet in one point if the straight side between them has no length. Corners nearer than
+  // this to the previous one are left out.
   constexpr double least_side_mm = 1e-4;
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -156,8 +157,8 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-// Returns the bounding box of points. If the options have a size, returns a box of that size with the same
-// centre, less the margin on all sides.
+// Returns the bounding box of the points. If the options have a size, returns a box with the same centre
+// instead; it has this size less the margin on all sides.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);
@@ -178,7 +179,7 @@ std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& op
   return around(points, frame.centre, sides_of_rectangle(frame, options, corner), options.margin_mm);
 }
 
-// Returns an ellipse with axes in the ratio of `shape`.
+// Returns an ellipse around the points, with axes in the ratio of `shape`.
 std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const OutlineOptions& options) {
   const Frame frame = frame_around(points);
   const Vec2 centre = round_centre(points, shape), wanted = options.size_mm / 2;
@@ -212,7 +213,7 @@ std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
   return around(points, centre, is_pointed ? pointed : flat, margin);
 }
 
-// A table entry per outline: the function that makes it, and its properties. Outline::none has no entry.
+// Properties of an outline, and the function that makes it. Outline::none has no entry in the table.
 struct OutlineShape {
   Outline outline;
   std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);
@@ -230,8 +231,8 @@ const OutlineShape* shape_of(Outline outline) {
   return found == shapes.end() ? nullptr : &*found;
 }
 
-// Returns the lengths on both sides of a separator. In "8x6in" only the second length has a unit, which then
-// applies to both.
+// Returns the numbers before and after the separator as lengths. In "8x6in" only the second number has a
+// unit, which then applies to both.
 std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit bare) {
   const std::size_t middle = text.find(separator);
   if (middle == std::string_view::npos) return std::nullopt;

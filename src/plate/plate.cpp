@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Moves the surface so that its lowest point is exactly at the thickness, and no x or y is negative.
+// Moves the surface so that the z of its lowest point is exactly the thickness, and no x or y is negative.
 void raise(Solid& surface, double thickness_mm) {
   const Vec3 begin = used_box(surface.points, surface.triangles).min;
   const Vec3 move(-std::min(0.0, begin.x()), -std::min(0.0, begin.y()), thickness_mm - begin.z());
@@ -22,7 +22,7 @@ void raise(Solid& surface, double thickness_mm) {
   surface.ground_mm += move.z();
 }
 
-// Adds a point on the bottom below each corner of a polygon. Returns the new points.
+// Adds a point on the bottom below each corner of the polygon `top`. Returns the new points.
 IndexPolygon add_below(Solid& solid, const IndexPolygon& top) {
   IndexPolygon bottom;
   for (const Index i : top) {
@@ -41,7 +41,8 @@ void add_walls(Solid& solid, const IndexPolygon& top, const IndexPolygon& bottom
   }
 }
 
-// Adds the walls under the outline, and the bottom: a fan of triangles or, for bending, a lattice.
+// Adds the walls under the outline, and the bottom. The bottom is a fan of triangles or, if the
+// plate will be bent, a lattice.
 void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
   const IndexPolygon bottom = add_below(solid, outline);
   add_walls(solid, outline, bottom);
@@ -50,7 +51,7 @@ void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
     solid.triangles.push_back({bottom[0], bottom[i + 1], bottom[i]});
 }
 
-// Adds the bottom, a copy of the front's triangles, and the walls between the boundaries of both.
+// Adds the bottom, which is a copy of the front's triangles, and the walls between both boundaries.
 void close_body(Solid& solid) {
   const std::vector<Triangle> front = solid.triangles;
   const auto n = static_cast<Index>(solid.points.size());
@@ -62,7 +63,7 @@ void close_body(Solid& solid) {
   for (const auto& [a, b, c] : front) solid.triangles.push_back({a + n, c + n, b + n});
 }
 
-// Returns the solid of a surface, with walls and bottom.
+// Returns the solid that has the given surface, with walls and bottom.
 Solid closed(PlateSurface surface, const PlateOptions& options) {
   raise(surface.solid, options.thickness_mm);
   surface.solid.error_mm += flip_thin_triangles(surface.solid, surface.outline.empty());
@@ -78,8 +79,8 @@ Solid closed(PlateSurface surface, const PlateOptions& options) {
   return std::move(surface.solid);
 }
 
-// Returns the part of the front that the plate shows: all of it or, for a plate without ground, only the
-// relief. The relief is stored in `alone`.
+// Returns the part of the front that the plate shows. A plate without ground shows only the relief,
+// which is then stored in `alone`; other plates show the whole front.
 Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const PlateOptions& options,
                                            HeightFieldMesh& alone) {
   RELIEVO_CHECK(check_plate(front, options));
@@ -89,7 +90,7 @@ Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const P
   return geometry_error("front", "expected triangles of the relief, found ground only");
 }
 
-// Sizes below a micrometre could make rim or walls degenerate when files round them to single precision.
+// Smaller sizes could make rim or walls degenerate when files round them to single precision.
 constexpr double least_size_mm = 1e-3;
 constexpr double least_tolerance_mm = 1e-4;  // smaller tolerances would reproduce the rounding of files
 

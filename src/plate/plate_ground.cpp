@@ -15,8 +15,8 @@ Vec2 edge(const Solid& solid, const IndexPolygon& polygon, std::size_t i) {
   return (solid.points[polygon[(i + 1) % polygon.size()]] - solid.points[polygon[i]]).head<2>();
 }
 
-// Rotates the polygon's order until its lowest vertex (of several, the leftmost) is first, so that the angles
-// of its edges increase from 0 to 2 pi.
+// Rotates the order of the polygon's vertices until the lowest one (of several, the leftmost) is first.
+// Then the angles of its edges increase from 0 to 2 pi.
 void begin_at_lowest(const Solid& solid, IndexPolygon& polygon) {
   const auto is_lower = [&](Index a, Index b) {
     const Vec3 &p = solid.points[a], &q = solid.points[b];
@@ -40,7 +40,7 @@ struct RimProfilePoint {
   double height_mm = 0;  // above the ground
 };
 
-// Returns the rim's cross-section from the outline inwards; only the outline if there is no rim.
+// Returns the rim's cross-section, from the outline inwards. If there is no rim, it is the outline alone.
 std::vector<RimProfilePoint> rim_profile(const RimOptions& rim) {
   if (rim.width_mm == 0) return {{}};
   std::vector<RimProfilePoint> profile;
@@ -65,9 +65,8 @@ IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double 
 }
 
 // Merges the edges of both polygons by the angle of their outward normals. Each edge is connected to the
-// vertex of the other polygon that is farthest along the edge's normal. These connections sweep the ring
-// once. So no triangles overlap, and every triangle has an area, even where points are collinear or edges are
-// parallel.
+// vertex of the other polygon that is farthest along the edge's normal. These triangles sweep the ring once,
+// so none overlap. Every triangle has an area, even where points are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer) {
   begin_at_lowest(solid, inner);
   begin_at_lowest(solid, outer);

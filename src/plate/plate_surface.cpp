@@ -21,11 +21,11 @@ Region region_of(const HeightFieldMesh& front, const Triangle& t) {
   return is_level ? Region::ground : Region::relief;
 }
 
-// Returns a solid that has only the front, with the lower corner of its box at `corner`.
+// Returns a solid that has only the front. The lower corner of its box is at `corner`.
 Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& corner) {
   Solid solid;
   solid.points.reserve(front.points.size() + 8);
-  // Subtracting before adding keeps the box exact.
+  // p - box.min comes first, because then the sum is exact for the box's corner.
   for (const Vec3& p : front.points) solid.points.push_back((p - box.min) + corner);
   solid.triangles = front.triangles;
   for (const Triangle& t : front.triangles) solid.regions.push_back(region_of(front, t));
@@ -35,7 +35,7 @@ Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& cor
   return solid;
 }
 
-// Sets the regions of new triangles: bevel outside the rim's inner polygon, ground where all corners are at
+// Sets the region of each triangle: bevel outside the rim's inner polygon, ground where all corners are at
 // the height of the ground, relief elsewhere.
 void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
   surface.regions.resize(surface.triangles.size());
@@ -79,15 +79,15 @@ Result<PlateSurface> flat_plate_surface(const HeightFieldMesh& front, const Plat
   return surface;
 }
 
-// Returns the polygon inside the rim; no points for a plate without ground.
+// Returns the polygon inside the rim; empty for a plate without ground.
 std::vector<Vec2> rim_inner_of(const HeightFieldMesh& front, const PlateOptions& options) {
   if (options.outline == Outline::none) return {};
   return rim_inner_polygon(outline_of_plate(front, used_box(front.points, front.triangles), options),
                            options.rim);
 }
 
-// Returns points that enclose the plate, in the front's coordinates: the plate's outline or, for a plate
-// without ground, the relief's points.
+// Returns points that enclose the plate, in the front's coordinates. They are the plate's outline or,
+// for a plate without ground, the relief's points.
 std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& options) {
   std::vector<Vec2> outline;
   if (options.outline == Outline::none) {
@@ -104,10 +104,10 @@ std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& op
 // The curved surface that a plate's surface must follow, in the front's coordinates.
 struct TargetSurface {
   Deformation deformation;
-  // The height of the curved surface above the plane. For a wrap it is a height field of similar curvature,
-  // because triangles that approximate this height field also approximate the wrap.
+  // The height of the curved surface above the plane. For a wrap it is the height of a similarly curved
+  // height field, because triangles that approximate this field also approximate the wrap.
   std::function<double(const Vec2&)> height;
-  bool is_lifted = false;  // true if the surface gets this height now; a wrap bends the plate later
+  bool is_lifted = false;  // whether the surface gets this height now; a wrap bends the plate later
 };
 
 TargetSurface target_on(const Base& base) {
@@ -150,7 +150,7 @@ void lift(std::vector<Vec3>& points, const TargetSurface& target, double sign) {
                [&](std::size_t i) { points[i].z() += sign * target.height(points[i].head<2>()); });
 }
 
-// Returns a surface as a height field inside its outline, without unused points.
+// Returns the plate's surface as a height field inside its outline, without unused points.
 HeightFieldMesh as_front(const PlateSurface& surface) {
   HeightFieldMesh front{surface.solid.points, surface.solid.triangles, surface.outline};
   front.colours = surface.solid.colours;
@@ -159,7 +159,7 @@ HeightFieldMesh as_front(const PlateSurface& surface) {
   return front;
 }
 
-// Simplifies a surface that already follows its target surface.
+// Simplifies a surface that already follows its target.
 Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
   RELIEVO_TRY(SimplifiedMesh simpler, simplify(as_front(surface), options));
   surface.solid.points = std::move(simpler.front.points);
@@ -170,7 +170,7 @@ Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& opti
   return {};
 }
 
-// Simplifies a flat surface, if the options ask for that.
+// Simplifies a flat surface, if the options ask for simplification.
 Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
                            std::span<const Vec2> rim_inner) {
   if (options.simplify_mm == 0 || surface.outline.empty()) return {};
@@ -181,8 +181,8 @@ Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
 }
 
 // Makes the flat surface follow the target, which is given in the surface's coordinates. The surface is
-// simplified in its curved state, because the tolerance applies to that. Regions are found in the flat state,
-// in which the ground is level.
+// simplified in its curved state, because the tolerance applies to that state. Regions are found in the flat
+// state, in which the ground is level.
 Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
                     std::span<const Vec2> rim_inner) {
   // For a wrap, wrap_plate() later refines the whole plate.

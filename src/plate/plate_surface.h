@@ -1,5 +1,5 @@
-// Makes the front side of a plate: relief, ground and rim, before walls and bottom are added. Tested by
-// plate_base_test.
+// Makes the front side of a plate: relief, ground and rim. Walls and bottom are added elsewhere. Tested
+// by plate_base_test.
 #pragma once
 
 #include <limits>
@@ -12,22 +12,21 @@
 
 namespace relievo {
 
-// An open surface. Its z does not include the plate's thickness yet.
+// The front side of a plate, an open surface. Its z does not include the plate's thickness yet.
 struct PlateSurface {
   Solid solid;                                               // without walls and bottom
   IndexPolygon outline;                                      // empty if the plate has no ground
   double spacing = std::numeric_limits<double>::infinity();  // distance between points on the ground
 };
 
-inline constexpr Colour plate_colour = {200, 200,
-                                        // Light grey, for ground, walls and bottom of a coloured relief.
-                                        200};
+// Light grey, the colour of ground, walls and bottom under a coloured relief.
+inline constexpr Colour plate_colour = {200, 200, 200};
 
-// Gives plate_colour to the points that were added after the coloured front.
+// Gives plate_colour to the points after those that already have a colour.
 void fill_colours(Solid& solid);
 
-// Returns the base under a front, in the front's coordinates. For a plate without ground, the front must be
-// only the relief. Errors: those of Base::over().
+// Returns the base under a front, in the front's coordinates. For a plate without ground, the front must
+// consist of the relief alone. Errors: those of Base::over().
 Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Returns the surface of a plate on its base. For a wrap the surface is flat, and its triangles are small
@@ -39,9 +38,9 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
 Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Replaces the surface by the surface that the tool leaves, see close_by_tool(). Points that the tool reaches
-// are kept. The others are replaced by samples of the new surface, which are dense where it is steep; level
-// ground gets no samples. `edges` are the rim's edges in the surface's coordinates; points along them keep
-// them sharp. A surface without ground keeps its triangles, and only its points are lifted.
+// are kept. The others are replaced by samples of the new surface. Samples are dense where it is steep; level
+// ground gets none. `edges` are the rim's edges in the surface's coordinates; points along them keep them
+// sharp. A surface without ground keeps its triangles, and only its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 }  // namespace relievo

@@ -16,10 +16,10 @@
 namespace relievo {
 namespace {
 
-// The share of the distance to the axis that the body must leave free, so that no point reaches the axis.
+// The share of the smallest radius of the wrap that the bent plate must leave free, so that no point reaches the axis.
 constexpr double least_free = .01;
 
-// Returns the points of the back, which is flat before bending and has the extent of the plate.
+// Returns the points of the plate's back. The back is flat before bending and has the extent of the plate.
 std::vector<Vec2> back_of(const Solid& plate) {
   std::vector<Vec2> places;
   for (std::size_t t = plate.front_triangles; t < plate.triangles.size(); ++t)
@@ -34,7 +34,7 @@ struct SidePoint {
   Index point;
 };
 
-// Returns the points on the side of the plate in the given direction, sorted along the side and by height.
+// Returns the points on the side of the plate that faces the given direction, sorted along the side and by height.
 std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   const Vec2 along(std::abs(direction.y()), std::abs(direction.x()));
   double farthest = 0, nearest = 0;
@@ -54,7 +54,7 @@ std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   return side;
 }
 
-// Joins the plate's two sides and removes their walls.
+// Joins the plate's two sides that meet after bending, and removes their walls.
 Result<void> close_ring(Solid& plate, const Vec2& across) {
   const std::vector<SidePoint> left = side_of(plate, -across), right = side_of(plate, across);
   std::vector<Index> other = all_indices(plate.points.size());
@@ -73,7 +73,7 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     for (Index& i : t) i = other[i];
     triangles.push_back(t);
   }
-  // front_triangles stays valid, because no front triangle lies entirely on a side.
+  // No triangle of the front lies entirely on a side, so front_triangles stays valid.
   plate.triangles = std::move(triangles);
   drop_unused(plate);
   return {};
@@ -93,7 +93,7 @@ Result<void> check_room(const Wrap& wrap, double bottom_mm, double highest_mm) {
 
 Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
   if (!wrap.is_closed()) return {};
-  // The computed cosine may be 6e-17 where it should be 0.
+  // The computed cosine of a right angle may be 6e-17 instead of 0.
   const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
   if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
   return option_error("wrap",
@@ -115,8 +115,8 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance. The tolerance here is larger, because refining this
-  // deviation away would undo the simplification.
+  // A simplified front deviates by its own tolerance. The tolerance here is larger, because otherwise
+  // refine() would undo the simplification.
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;

@@ -15,12 +15,12 @@
 namespace relievo {
 namespace {
 
-// Distance, in samples, between new points where the surface is gentle and where it is steep. With
-// samples_for() these are usually a quarter and a twelfth of the tool's radius.
+// Distances between new points, in samples, where the surface is gentle and where it is steep. With
+// samples_for() they are usually a quarter and a twelfth of the tool's radius.
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
-constexpr double least_left_mm = 1e-3;  // a point counts as reached if less is left above it
-// Largest distance by which a point is lifted; beyond that it is removed.
+constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this is left above it
+// Largest distance by which a point is lifted. A point that would have to be lifted more is removed.
 constexpr double most_lift_mm = .01;
 
 // The heights of a surface, and the heights that the tool leaves.
@@ -39,14 +39,14 @@ class ToolHeights {
   float left(int x, int y) const { return is_front(x, y) ? closed_.at(x, y) - field_.z.at(x, y) : 0; }
   Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
 
-  // Returns a sample's position at the height that the tool leaves.
+  // Returns the position of a sample, at the height that the tool leaves.
   Vec3 place(int x, int y) const {
     const Vec2 place = field_.to_mm(x + .5, y + .5);
     return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
   }
 
-  // Returns the height that the tool leaves, interpolated between samples; outside all samples, the height of
-  // the point itself.
+  // Returns the height that the tool leaves at a point, interpolated between samples. Outside all samples,
+  // returns the height of the point itself.
   double at(const Vec3& point) const {
     const Vec2 place = to_samples(point) - Vec2(.5, .5);
     const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
@@ -62,7 +62,7 @@ class ToolHeights {
     return weights > 0 ? field_.box.min.z() + sum / weights : point.z();
   }
 
-  // Returns the largest rise from a sample to a neighbouring one.
+  // Returns the steepest slope from a sample to a neighbouring sample.
   float slope(int x, int y) const {
     float most = 0;
     for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
@@ -71,7 +71,7 @@ class ToolHeights {
     return most / static_cast<float>(field_.mm_per_pixel);
   }
 
-  // Returns whether the tool leaves material at a sample or near it.
+  // Returns whether the tool leaves material at a sample, or at the samples `distance` away from it.
   bool leaves_near(int x, int y, int distance) const {
     for (const int dy : {-distance, 0, distance})
       for (const int dx : {-distance, 0, distance})
@@ -89,7 +89,7 @@ class ToolHeights {
   Image<float> closed_;
 };
 
-// The points of the new surface. Marks the samples close to them.
+// The points of the new surface. The samples close to these points are marked, so that they are not added.
 class PointSet {
  public:
   PointSet(const ToolHeights& heights, const Solid& old)
@@ -110,7 +110,7 @@ class PointSet {
         if (is_taken_.contains(x, y)) is_taken_.at(x, y) = 1;
   }
 
-  // Adds the point if the tool reaches it or misses it by little; in the second case the point is lifted.
+  // Adds the point if the tool reaches it. If the tool misses the point by little, the point is lifted and added.
   void add_if_reached(const Vec3& point, const Colour& colour) {
     const double left = heights_.at(point) - point.z();
     if (left <= least_left_mm)

@@ -16,7 +16,7 @@ std::optional<double> value_of(std::string_view text, ShapeUnit unit) {
   return value ? std::optional(*value) : std::nullopt;
 }
 
-// Returns the text up to the next comma that is not followed by a digit.
+// Returns the text up to the first comma that is not followed by a digit.
 std::string_view first_entry(std::string_view text) {
   std::size_t comma = text.find(',');
   while (comma != std::string_view::npos && comma + 1 < text.size() &&

@@ -51,8 +51,8 @@ std::string wrong_edges(const Solid& solid) {
     const std::span edges(table.items.begin() + static_cast<std::ptrdiff_t>(table.begin[p]),
                           table.begin[p + 1] - table.begin[p]);
     std::ranges::sort(edges);
-    // In a closed surface, the sorted entries are pairs: an edge from the lower vertex, then the opposite
-    // edge. A third use of an edge breaks the pairs.
+    // In a closed surface the sorted entries form pairs: an edge from the lower vertex, then the opposite
+    // edge. If an edge is used a third time, an entry has no partner.
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const bool is_pair = i + 1 < edges.size() && edges[i] % 2 == 0 && edges[i + 1] == edges[i] + 1;
       if (!is_pair)
@@ -84,8 +84,8 @@ std::string check_solid(const Solid& solid) {
 
 double volume_mm3(const Solid& solid) {
   if (solid.triangles.empty()) return 0;
-  // Sums signed tetrahedra with a common apex. The apex is a point of the solid, because with the origin
-  // digits would cancel for solids far from the origin.
+  // Sums the signed volumes of tetrahedra with a common apex. The apex is a point of the solid. If it
+  // were the origin, digits would cancel for solids far from the origin.
   const Vec3 apex = solid.points[solid.triangles[0][0]];
   return parallel_reduce(
       solid.triangles.size(), 0.0,
@@ -103,7 +103,7 @@ double volume_mm3(const Solid& solid) {
 
 Solid in_unit(Solid solid, LengthUnit unit) {
   if (unit == std::exchange(solid.unit, unit)) return solid;
-  const bool is_height_field = find_folds(solid).empty();  // false for some wrapped solids
+  const bool is_height_field = find_folds(solid).empty();  // some wrapped solids are no height fields
   const double scale = unit == LengthUnit::mm ? mm_per_inch : 1 / mm_per_inch;
   Box box;
   for (Vec3& p : solid.points) {

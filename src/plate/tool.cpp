@@ -129,7 +129,7 @@ double tool_profile(const Tool& tool, double distance_mm) {
   const double r = std::abs(distance_mm);
   const auto ball = [&](double radius) { return radius - std::sqrt(std::max(0.0, radius * radius - r * r)); };
   if (tool.kind == Tool::Kind::v) {
-    // The cone begins where it is tangent to the ball at the tip.
+    // The cone begins where it touches the ball at the tip.
     const double tip = tool.tip_mm / 2, angle = half_angle(tool), touching = tip * std::cos(angle);
     if (r <= touching) return ball(tip);
     return tip * (1 - std::sin(angle)) + (r - touching) / std::tan(angle);
@@ -145,13 +145,14 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
   const int reach =
       std::min(static_cast<int>(radius / step_mm + 1e-9), std::max(heights.width, heights.height) / 2);
   const Profile profile(reach, [&](int x, int y) {
-    const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);  // keeps samples at the radius
+    // The factor keeps samples at the radius, which rounding could put beyond it.
+    const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));
   });
-  // Positions of the tool extend beyond the image on all sides.
+  // The lowest height of the tool's tip at each position. The positions extend beyond the image on all sides.
   Image<float> hanging = dilate(heights, profile, reach);
-  // The tool visits no position without heights near it.
+  // The tool skips positions that have no heights near them.
   for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;
   const Image<float> left = dilate(hanging, profile, -reach);
   Image<float> closed = heights;

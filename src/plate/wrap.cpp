@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-constexpr double most_of_sphere_deg = 340;  // with more, the plate's rim would meet itself behind the sphere
-constexpr double closing_deg = .01;         // a turn this close to a full turn counts as a full turn
+constexpr double most_of_sphere_deg = 340;  // with more, the rim would meet itself behind the sphere
+constexpr double closing_deg = .01;         // an angle this close to a full turn counts as a full turn
 
 // The size of the plate across and along the axis, and its largest distance from its middle.
 struct Extent {
@@ -45,7 +45,7 @@ Result<void> check_numbers(const WrapOptions& options) {
   return {};
 }
 
-// Returns the unit vector perpendicular to the axis, pointing to its right; exact for 90 and 0 degrees.
+// Returns the unit vector perpendicular to the axis that points to the axis's right. It is exact for 90 and 0 degrees.
 Vec2 across_of(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();

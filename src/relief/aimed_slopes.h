@@ -22,17 +22,16 @@ Vec3 direction_of(const LightDirection& light);
 // mean of the shading along the surface. The standard deviation is 3 % of the longer side.
 std::vector<float> local_contrast(const Surface& surface, const LightDirection& light);
 
-// Returns the slope whose shading under the light l is `shading`. Its component across the light's direction
-// in the view plane is the same as that of s. If two such slopes exist, the one nearer to s is returned; if
-// none exists, s is returned. A shading is the cosine of the angle between normal and light, or 0 where that
-// is negative.
+// Returns the slope whose shading under the light l is `shading`. A shading is the cosine of the angle between normal
+// and light, or 0 where the cosine is negative. Across the light's direction in the view plane, the slope has the same
+// component as s. If two such slopes exist, the one nearer to s is returned; if none exists, s is returned.
 template <typename Real>
 Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vector3<Real>& l, Real shading) {
   const Real h = l.template head<2>().norm();
   const Eigen::Vector2<Real> along = l.template head<2>() / h, across(-along.y(), along.x());
   const Real p = s.dot(along), o = s.dot(across);
-  // The equation (l_z - h p) / sqrt(1 + p^2 + o^2) = shading, squared, is quadratic in the slope p along the
-  // light.
+  // p is the slope along the light, o the slope across it, and h the horizontal length of l. The equation
+  // (l_z - h p) / sqrt(1 + p^2 + o^2) = shading, squared, is quadratic in p.
   const Real a = h * h - shading * shading, b = -l.z() * h,
              c = l.z() * l.z() - shading * shading * (1 + o * o);
   const Real root_sq = b * b - a * c;
@@ -48,8 +47,8 @@ Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vec
 }
 
 // Changes the target slopes of a layered shape that has a light, so that their shading gets the given
-// contrast. `contrast` is local_contrast() of that light. It is multiplied by the weight of the fine layer,
-// so that the slopes of low reliefs stay small enough for the height.
+// contrast. `contrast` is the local_contrast() of the light. It is multiplied by the weight of the fine
+// layer, because the slopes of low reliefs have to stay small enough for the height.
 template <typename Real>
 void aim_slopes(const Shape& shape, std::span<const float> contrast, Real fine_weight,
                 std::span<Eigen::Vector2<Real>> slopes) {

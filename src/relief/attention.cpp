@@ -14,8 +14,9 @@ namespace {
 // Standard deviations of the narrower Gaussian, as shares of the longer side. Lee et al. take 2 to 6 times 0.3 % of
 // the diagonal of the model's box, which is about 1.3 longer sides. The wider Gaussian has twice the width.
 constexpr std::array widths{.008, .012, .016, .02, .024};
-// Standard deviations, as shares of the longer side: of the prior, a Gaussian around the middle of the view, and of
-// the last blur of the attention. Slopes that are scaled by a less smooth field would not fit any surface.
+// Standard deviations, as shares of the longer side. `prior_width` is that of the prior, a Gaussian around the middle
+// of the view; `smoothing` is that of the last blur of the attention. Slopes that are scaled by a less smooth field
+// would not fit any surface.
 constexpr double prior_width = .35, smoothing = .02;
 
 // Returns the mean of all local maxima except those equal to `highest`; 0 if there are none.
@@ -34,8 +35,9 @@ double mean_of_other_maxima(const Surface& surface, std::span<const float> value
   return count > 0 ? sum / count : 0;
 }
 
-// Adds the absolute differences between two Gaussian means of the curvature. They are scaled to at most 1, then
-// multiplied by (1 - m)^2, where m is the mean of the other local maxima (the suppression S of Lee et al.).
+// Adds the absolute differences between two Gaussian means of the curvature. The differences are divided by their
+// maximum. Then they are multiplied by (1 - m)^2, where m is the mean of the local maxima below 1 (the suppression S of
+// Lee et al.).
 void add_differences(const Surface& surface, double width, std::span<float> sums) {
   const auto blurred_by = [&](double share) {
     return blurred(surface.points, surface.curvature.k, share * surface.longer_side());

@@ -12,15 +12,15 @@
 namespace relievo {
 namespace {
 
-// Standard deviations of the Gaussians as shares of the longer side. The narrow one removes colour noise. It
-// is at least `least_narrow_rho` sampling distances.
+// Standard deviations of two Gaussians, as shares of the longer side. The narrow Gaussian removes colour
+// noise; its standard deviation is at least `least_narrow_rho` sampling distances.
 constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
-// Difference of lightness between a line and its surroundings, as a share of the range of lightness. Lines
-// get none of the depth below `least_darker`, all of it above `most_darker`.
+// Differences of lightness between a line and its surroundings, as shares of the range of lightness. Lines
+// do not sink below a difference of `least_darker`, and sink by the full depth above `most_darker`.
 constexpr float least_darker = .04F, most_darker = .12F;
 
 // Writes factor * z minus the depth of the lines to `to`, but at least min(z, 0), where 0 is the base.
-// Returns the highest result and its point.
+// Returns the highest result and the index of its point.
 template <typename Real>
 std::pair<double, std::size_t> lowered(std::span<const float> lines, double depth, double factor,
                                        std::span<const Real> z, std::span<Real> to) {

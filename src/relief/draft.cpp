@@ -64,9 +64,9 @@ class Limiter {
   }
 
  private:
-  // If a wall rises between two neighbouring rows of points, the least-squares fit keeps to the largest slope
-  // by lowering the wall. Models of a scene for which a height was requested must keep it, so their walls
-  // become wider instead.
+  // Gives models of a scene the heights that were requested for them. If a wall rises between two
+  // neighbouring rows of points, the least-squares fit keeps the slope limit by lowering the wall. Here the
+  // wall gets its height back and becomes wider instead.
   void keep_own_heights(Relief& relief) {
     if (model_->paper() || model_->own_heights().empty()) return;
     constexpr double share = .9;  // share of the limit; the rest is for the slope of the surface behind
@@ -96,9 +96,8 @@ class Limiter {
     return {};
   }
 
-  // The least-squares result can be far above the limit, for example if walls are a hundred times too steep.
-  // Then limit_slopes() fails, and all heights are lowered before the next try. `most_tries` limits these
-  // tries.
+  // The least-squares result can be far above the limit, for example if walls are a hundred times too steep. Then
+  // limit_slopes() fails, and all heights are lowered before it is called again, at most `most_tries` times.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
@@ -109,8 +108,8 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches for the relief of a given height. Its reliefs grow with x: the logarithm of u if the method has a
-// shape, else (for baselines) the logarithm of a scale.
+// Searches for the relief of a given height under the slope limit. The search varies x, with which the height grows. x
+// is the logarithm of u if the method has a shape, else (for baselines) the logarithm of a scale factor.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
@@ -130,17 +129,16 @@ class DraftSearch {
   // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. The largest scale gives a
-  // relief that would be 64 times as high as half the longer side at the largest slope, if its slopes were
-  // not limited. This does not depend on the requested height, so the largest height is the same for all
-  // requests.
+  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief is 64
+  // times as high as a cone of the largest slope whose radius is half the longer side, before its slopes are limited.
+  // This does not depend on the requested height, so the largest height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);
   }
 
-  // Relative tolerance of the search. A relief may be too high by up to twice this share. It is then scaled
-  // down, which cannot make it steeper.
+  // Relative tolerance of the search. A relief that is too high, by up to twice this share, is scaled down.
+  // Scaling down cannot make it steeper.
   static constexpr double tolerance = .003;
 
   Result<void> make(double x) {

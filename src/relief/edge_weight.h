@@ -1,5 +1,5 @@
-// Computes the weight of an edge in equation (9): for the systems of all points and of control points, and
-// for the steps at depth jumps. TriangleSlopes uses half_edge_weight() and needle_share(), because its
+// Computes the weight of an edge in equation (9). The weight is used in the systems of all points and of control
+// points, and for the steps at depth jumps. TriangleSlopes uses half_edge_weight() and needle_share(), because its
 // weights belong to triangles. tests/support/least_squares.h computes the weight independently.
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// The largest weight, for edges opposite to very small angles. Beside a larger weight, single precision would
-// lose the other weights of a point.
+// The largest weight, for edges opposite to very small angles. If an edge had a larger weight, single
+// precision would lose the other weights of its points.
 inline constexpr float largest_edge_weight = 1e3F;
 // The edge between two triangles on a common circle has weight 0. This least weight keeps the matrix positive
 // definite.
@@ -26,22 +26,21 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * std::clamp(u.dot(v) / std::max(cross(u, v), 1e-300), -1e6, 1e6);
 }
 
-// Returns the factor, in [0, 1], that reduces all half weights of a triangle, so that the largest,
-// `stiffest`, is at most half of largest_edge_weight. The weight of an edge is the sum of two half weights.
+// Returns the factor, in [0, 1], for all half weights of a triangle, of which `stiffest` is the largest. It reduces the
+// largest to at most half of largest_edge_weight, because the weight of an edge is the sum of two half weights.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
 // Returns the weight of the edge from a to b. `sum` is the sum of its half weights. `weights` has a factor
-// per point or is empty; the weight is multiplied by the mean factor of both ends.
+// per point or is empty. The edge's weight is multiplied by the mean factor of both ends.
 inline float edge_weight(float sum, std::span<const float> weights, Index a, Index b) {
   const float weight = std::clamp(sum, least_edge_weight, largest_edge_weight);
   return weights.empty() ? weight : weight * (weights[a] + weights[b]) / 2;
 }
 
-// Returns the weight of one edge. `sides` are the triangle sides on that edge; `points` are in view
-// coordinates.
+// Returns the weight of the edge to which the triangle sides `sides` belong. `points` are in view coordinates.
 inline float edge_weight(std::span<const Vec3> points, std::span<const TriangleSide> sides) {
   const auto plane = [&](Index i) { return Vec2(points[i].head<2>()); };
   float sum = 0;

@@ -42,7 +42,7 @@ struct OwnFrames {
   OwnHeights::Workspace<float> own_workspace = {};
   std::optional<LightDirection> light = {};  // the light for which `contrast` was computed
   std::vector<float> contrast = {};
-  std::vector<std::uint16_t> attention = {};  // levels of the surface, computed when a frame first needs them
+  std::vector<std::uint16_t> attention = {};  // per point: its level; computed at the first need
   StrokeFields<float> strokes{surface};
   std::vector<float> uncorrected = {};           // heights before the height correction, if strokes need them
   std::optional<std::vector<float>> lines = {};  // dark_lines(), computed when a frame first needs them
@@ -54,8 +54,8 @@ struct OwnFrames {
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
   Shape made = {};                              // shape of the last frame
-  HeightSearch::Track last_height, last_steps;  // results of the last searches by u and by steps
-  bool needs_steps = false;                     // whether slopes alone did not reach the last locked height
+  HeightSearch::Track last_height, last_steps;  // results of the last searches: u, and steps
+  bool needs_steps = false;                     // whether slopes alone missed the last height
 
   explicit OwnFrames(const ReliefModel& m) : model(m) {}
 
@@ -108,7 +108,8 @@ struct OwnFrames {
     frame.times.after_solve_s += mapping.seconds();
   }
 
-  // Calls f(heights, style) for the frame's heights, which f may change, and stores their span afterwards.
+  // Calls f(heights, style), which may change the frame's heights. Afterwards stores the span of the
+  // heights in the frame.
   template <typename F>
   void change_heights(Frame& frame, F&& f) {
     const Stopwatch watch;
@@ -119,7 +120,7 @@ struct OwnFrames {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of `shape` up to raise() of its style. The last step, finish() of the style, does not
+  // Makes the relief of `shape`, except for the last step, finish() of its style. This step does not
   // change frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = shape;
@@ -137,9 +138,9 @@ struct OwnFrames {
     });
   }
 
-  // Makes the frame have a height. Searches for the weight u of equation (6), starting from the u of the last frame,
-  // see ReliefModel::make_at_height(). If no u is enough, searches for the height of steps at depth jumps. One or
-  // two solves are usually enough.
+  // Makes a relief of the given height. Searches for the weight u of equation (6), starting from the u of the last
+  // frame (see ReliefModel::make_at_height()). If no u is enough, searches for the height of steps at depth jumps. One
+  // or two solves are usually enough.
   void raise_to(double height, Shape shape, Frame& frame) {
     const HeightSearch search(height, frame.options.height_tolerance);
     const auto height_at = [&](double log_u) {
@@ -166,7 +167,8 @@ struct OwnFrames {
     heights.span = heights.change_all([&](std::size_t, float& z) { z *= static_cast<float>(factor); });
   }
 
-  // Scales a relief down if it is too high by over twice the tolerance, see HeightSearch::bracket().
+  // Scales the relief down if its height exceeds the requested one by over twice the tolerance.
+  // HeightSearch::bracket() says when this happens.
   void scale_down(RaisedHeights<float>& heights, Frame& frame) {
     const std::optional<double>& height = frame.options.height;
     if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))

@@ -31,7 +31,8 @@ class HeightSearch {
   // `tolerance` is the largest accepted error of ln(height).
   HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
 
-  // The length of a secant step in ln u, limited to [least, most]. `elasticity` is d ln(height) / d ln(u).
+  // Computes a secant step in ln u, limited to [least, most]. `elasticity` is d ln(height) / d ln(u). The
+  // secant's step is multiplied by `gain`.
   struct SecantStep {
     double gain = 1, least = -2, most = 2;
 
@@ -40,16 +41,16 @@ class HeightSearch {
     }
   };
 
-  // The result of the last search of a series.
+  // The result of the last search in a series of similar reliefs, for track().
   struct Track {
     double log_u = 0, elasticity = 1;
-    std::optional<double> log_height = {};  // ln height at that u; empty until a height was met
+    std::optional<double> log_height = {};  // ln height at that u; empty before the first success
   };
 
   // Searches without a first guess. Tries u = infinity first, to find out whether the height can be reached,
-  // then brackets u. Returns whether the height is reached; if not, the last relief is the highest one. The
-  // last relief is too high if the height as a function of u jumps past the requested height, or exceeds it
-  // for every u. Then the caller has to scale it down.
+  // then brackets u. Returns whether the height is reached; if not, the last relief is the highest one. If
+  // the height as a function of u jumps past the requested height, or exceeds it for every u, the last
+  // relief is too high. Then the caller has to scale it down.
   template <typename F>
   bool bracket(F&& height_at) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -60,13 +61,13 @@ class HeightSearch {
     return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
-  // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and
-  // elasticity predict, and takes secant steps; one or two calls are usually enough. After six secant steps
-  // it brackets u instead. This happens after large changes, and for heights at or above the largest.
+  // Searches in a series of reliefs, each similar to the last one. Starts at the u that the last height and elasticity
+  // predict, and takes secant steps; one or two calls are usually enough. After six secant steps it brackets u instead.
+  // This happens after large changes, and for heights at or above the largest possible height.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
-    // Lower elasticities are rounding errors of single precision, or occur near the largest height.
+    // Elasticities below this value are rounding errors of single precision, or occur near the largest height.
     constexpr double least_elasticity = .02;
     constexpr SecantStep step;
     double x = last.log_u;
@@ -94,18 +95,18 @@ class HeightSearch {
 
   // Searches with few calls, for reliefs that take long to make. The first secant steps go upwards from
   // `low`, which must give a height that is not too high. Then false position narrows the bracket, and every
-  // third step is a bisection. The height of the result is between the requested one and twice the tolerance
-  // above. Returns false if the relief at `last` is too low.
+  // third step is a bisection. The resulting height is at least the requested one, and exceeds it by at most
+  // twice the tolerance. Returns false if the relief at `last` is too low.
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps are a tenth longer than the secant's, so that they end slightly above the requested height. Then
-    // the bracket is closed, which saves a relief.
+    // Steps are a tenth longer than secant steps, so that they end slightly above the requested height. That
+    // closes the bracket, which saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
     // Heights grow with u, but more slowly where the slopes of the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;
-    // If the next step would end within this distance of `last`, or beyond, the relief at `last` is made
-    // instead. If that is too low, the search fails.
+    // If the next step would end less than `near_last` before `last`, or beyond it, the relief at `last`
+    // is made instead. If the relief at `last` is too low, the search fails.
     constexpr double near_last = .3;
     const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
     double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;

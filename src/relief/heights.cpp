@@ -16,8 +16,8 @@
 namespace relievo {
 namespace {
 
-// Returns, for each point, the numbers of its corners in triangles inside the relief, in ascending order.
-// Corner i of triangle t has the number 3 t + i.
+// Returns, for each point, the triangle corners at this point, in ascending order. Only triangles inside
+// the relief count. Corner i of triangle t has the number 3 t + i.
 Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& triangles,
                              const Boundary& boundary) {
   return grouped<Index>(points, [&](auto&& add) {
@@ -50,13 +50,13 @@ Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
   return all;
 }
 
-// Equation (9) for fixed points: the matrix, and the coefficients of the right-hand side.
+// The matrix of equation (9), and the coefficients from which its right-hand side is computed.
 struct HeightEquations {
-  std::vector<Index> free_points;  // point of each unknown; points on the boundary have none
-  Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
-  // The edges of each point, in ascending order of the other points. Every point also has an edge to itself,
-  // so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times
-  // the vector from the other point; it is 0 at boundary points, whose heights are 0.
+  std::vector<Index> free_points;  // point of each unknown; boundary points have no unknown
+  Eigen::SparseMatrix<double> A;   // lower triangle of the weighted Laplacian; one row per unknown
+  // The edges of each point, in ascending order of the points at their other ends. Every point also has an
+  // edge to itself, so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half
+  // its weight times the vector from the other point; it is 0 at boundary points, whose heights are 0.
   // SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
   Groups<MatrixEntry> edges;
 };
@@ -66,11 +66,10 @@ struct WeightedEdge {
   float weight;
 };
 
-// The edges of each point, in ascending order of the other points.
+// The edges of each point, in ascending order of the points at their other ends.
 using Adjacency = Groups<WeightedEdge>;
 
-// Computes the weighted edges of points in equation (9), point by point. Corner i of triangle t has the
-// number 3 t + i.
+// Computes the edges of equation (9) and their weights, point by point. Corner i of triangle t has the number 3 t + i.
 class EdgeRows {
  public:
   EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
@@ -124,8 +123,8 @@ Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>
   });
 }
 
-// Returns the matrix of the normal equations of the least squares (9), a weighted Laplacian. Boundary points
-// have height 0 and drop out.
+// Returns the matrix of the normal equations of the least-squares problem (9), a weighted Laplacian.
+// Boundary points have height 0, so they have no row.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const auto n = static_cast<int>(free_points.size());
@@ -209,8 +208,8 @@ class NormalRows {
       : points_(points), triangles_(triangles) {}
 
   // Adds the row of a point to `entries`. The normal is N / N_z, where N is the sum of the cross products of
-  // the point's triangles. N_z does not depend on heights, and N is linear in them. So the row consists of
-  // the derivatives of N by the heights, divided by N_z.
+  // the point's triangles. N_z does not depend on heights, and N is linear in the heights. So the row
+  // consists of the derivatives of N with respect to the heights, divided by N_z.
   void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
     terms_.clear();
     double z = 0;
@@ -222,14 +221,14 @@ class NormalRows {
       Vec2 coefficient = Vec2::Zero();
       const Index other = term->other;
       for (; term != terms_.end() && term->other == other; ++term) coefficient += term->coefficient;
-      // The derivative by the point's own height is 0 if triangles surround the point.
+      // The derivative with respect to the point's own height is 0 if triangles surround the point.
       const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z);
       if (!cancels && z > 0) entries.push_back({other, (coefficient / z).cast<float>()});
     }
   }
 
  private:
-  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), by the height of each corner.
+  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), with respect to the height of each corner.
   void add_terms(const Triangle& t, Index corner) {
     const Index a = t[corner], b = t[(corner + 1) % 3], c = t[(corner + 2) % 3];
     const Vec2 ab = points_[b] - points_[a], ac = points_[c] - points_[a], bc = points_[c] - points_[b];
@@ -273,8 +272,7 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The coefficients of boundary points are 0. So their right-hand side is 0, and solve() leaves it as their
-// height.
+// The coefficients of boundary points are 0. So their right-hand side is 0, and solve() leaves 0 as their height.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

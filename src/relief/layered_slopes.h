@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// Returns the weighted sum of a point's layers. Multiplies all eight numbers of the layers at once.
+// Returns the weighted sum of a point's layers. Multiplies all eight numbers of the four layers at once.
 RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
   typedef std::int16_t Short8 __attribute__((vector_size(16)));
   static_assert(sizeof(Short8) == sizeof(PointLayers));
@@ -23,8 +23,8 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
          Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
 }
 
-// make_slopes() computes with single numbers or with vectors of eight. These types select between them.
-// Float8 itself cannot be the template argument, because GCC would then ignore that it needs no alignment.
+// These types let make_slopes() compute with single numbers or with vectors of eight. Float8 itself cannot
+// be the template argument, because GCC would then ignore that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;
@@ -40,15 +40,15 @@ struct EightFloats {
 
 // Turns the weighted layers (x, y) of points into target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where t
 // is the height share. The root compensates for the tilt that the height correction leaves. At t = 1 the
-// result is the slope of the normal with this x and y; near t = 0, where surfaces end up almost level, it is
-// (x, y). Slopes are shortened to at most `max_slope`.
+// result is the slope of the normal with this x and y. Near t = 0, surfaces end up almost level, and the
+// result is (x, y). Slopes are shortened to at most `max_slope`.
 template <typename Numbers, typename Real>
 RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
                                 Real height_share_sq, Real max_slope) {
   const typename Numbers::Values sine_sq = x * x + y * y, left_sq = sine_sq * height_share_sq;
   const Real most_sq = max_slope * max_slope;
-  // In the first case the slope is sine / cosine. Otherwise that would exceed max_slope, so the length
-  // becomes max_slope.
+  // The first case is the slope, sine / cosine. If this would exceed max_slope, the second case
+  // shortens it to max_slope.
   const typename Numbers::Values scale = sine_sq <= most_sq * (1 - left_sq)
                                              ? 1 / Numbers::root(1 - left_sq)
                                              : max_slope / Numbers::root(sine_sq);

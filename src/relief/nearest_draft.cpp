@@ -20,11 +20,10 @@ double weight_of(const std::array<Vec2, 3>& p) {
   return area * needle_share(stiffest);
 }
 
-// The penalty parameter and the over-relaxation of ADMM. With these values scans took the fewest rounds, 20
-// to 60.
+// The penalty parameter and the over-relaxation of ADMM. With these values, scans took the fewest iterations: 20 to 60.
 constexpr float penalty = 10, relaxation = 1.7F;
-// Target slopes are shortened to this many times the limit. Walls at depth jumps may be arbitrarily steep,
-// and would otherwise dominate the least squares.
+// Target slopes are shortened to this many times the limit. Otherwise walls at depth jumps, which may be
+// arbitrarily steep, would dominate the least squares.
 constexpr float steepest_given = 2;
 
 // The iteration stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes()

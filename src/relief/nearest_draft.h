@@ -27,8 +27,8 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat
-  // function; 0 at boundary points. For a field of slopes that is the right-hand side of equation (9).
+  // Writes, for each point i, the sum over its triangles of area times (field . gradient of i's hat function). Boundary
+  // points get 0. If the field consists of slopes, the sums are the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
@@ -43,7 +43,7 @@ class TriangleSlopes {
   };
 
   std::vector<Corners> triangles_;
-  std::vector<Index> begin_;  // point i has shares_[begin_[i]] up to shares_[begin_[i + 1]]
+  std::vector<Index> begin_;  // point i has the shares begin_[i] up to begin_[i + 1]
   std::vector<Share> shares_;
 };
 
@@ -60,7 +60,7 @@ class NearestDraft {
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Changes the heights to those of the nearest relief within the limit. A few triangles stay steeper,
+  // Changes the heights to those of the nearest relief within the limit. A few triangles stay steeper than the limit,
   // usually by at most 0.4 %. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {
@@ -86,8 +86,8 @@ class NearestDraft {
   TriangleSlopes triangles_;
   float max_slope_;
   HeightSystem::Workspace workspace_;
-  // Slopes per triangle: the base's (or empty); the target's; the target's, shortened; projected; the dual
-  // variable; and the slopes that heights are fitted to.
+  // Slopes per triangle, in this order: those of the base (or empty); the target; the shortened target;
+  // the projected slopes; the dual variable; and the slopes that heights are fitted to.
   std::vector<Vec2f> base_, given_, counted_, projected_, dual_, field_;
   std::vector<float> first_, heights_, change_;  // per point: target, current, and change
   bool is_started_ = false;

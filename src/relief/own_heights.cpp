@@ -30,8 +30,8 @@ Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std:
   return matrix;
 }
 
-// Returns the largest extent in depth of a connected component of the points. A component is measured by
-// itself, because the letters of a legend may lie at several depths although each of them is level.
+// Returns the largest extent in depth among the connected components of the points. Components are measured
+// separately, because the letters of a legend may lie at several depths although each letter is level.
 template <typename Link>
 double depth_of(const Surface& surface, std::span<const Index> points, std::span<const Link> links,
                 const std::vector<Index>& unknown) {
@@ -144,9 +144,9 @@ void OwnHeights::apply(double height, std::span<Real> z, Workspace<Real>& worksp
     workspace.solvers.push_back(models_[m].laplacian.make_workspace());
   workspace.before.assign(z.begin(), z.end());
   const double wanted = static_cast<double>(*std::ranges::max_element(z));
-  // The highest height is a convex, piecewise linear function of the factor that scales the other heights.
-  // Newton's method finds its root in a few steps. It needs one step if the highest point belongs to none of
-  // these models.
+  // Searches for the factor, applied to all heights outside of these models, that keeps the highest height
+  // unchanged. The highest height is a convex, piecewise linear function of the factor, so Newton's method
+  // converges in a few steps. One step is enough if the highest point belongs to none of these models.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

@@ -1,4 +1,4 @@
-// Sets the height of single models of a scene above the surface behind them.
+// Sets the heights of single models of a scene, each above the surface behind it.
 #pragma once
 
 #include <limits>
@@ -16,12 +16,12 @@ struct Surface;
 // are treated as one.
 //
 // A harmonic surface continues the heights around a model behind it. The model's heights above that surface
-// are scaled until their maximum is the requested height, but at most the depth of the model itself. A wall
-// of constant height along the model's edge adds the rest. A level model, such as a letter, consists of that
-// wall alone.
+// are scaled until their maximum is the requested height, but at most the depth of the model itself. If that
+// is less than the requested height, a wall of constant height along the model's edge adds the rest. A level
+// model, such as a letter, consists of its wall alone.
 //
 // If the highest point of the relief changes, all other heights are scaled, so that the height of the relief
-// does not change. Otherwise they keep their values.
+// does not change. Otherwise the other heights keep their values.
 class OwnHeights {
  public:
   // Scratch memory, so that frames allocate nothing.
@@ -31,7 +31,7 @@ class OwnHeights {
     std::vector<solver::Cholesky::Workspace> solvers;
   };
 
-  // Fails only as solver::Cholesky::factor() fails, which does not happen for the triangulation of a surface.
+  // Fails only if solver::Cholesky::factor() fails, which does not happen for the triangulation of a surface.
   static Result<OwnHeights> find(const Surface& surface);
 
   bool empty() const { return models_.empty(); }
@@ -53,11 +53,11 @@ class OwnHeights {
     double depth = 0;              // largest extent in depth of a connected part, in the surface's units
     std::vector<Index> points;     // the model's points except boundary points
     std::vector<float> distances;  // distance of each point from the model's edge in the view plane
-    std::vector<Link> links;       // edges with at least one end in `points`
+    std::vector<Link> links;       // edges with one or both ends in `points`
     solver::Cholesky laplacian;
   };
-  // The highest height of a relief. `scaled` is the part of it that is proportional to the factor of the
-  // other heights.
+  // The highest height of a relief. `scaled` is the part of `z` that is proportional to the factor by
+  // which the heights outside of these models are multiplied.
   struct Top {
     double z = 0, scaled = 0;
   };

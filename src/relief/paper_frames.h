@@ -1,4 +1,4 @@
-// Makes the frames of a model of Method::paper for FrameMaker.
+// Makes the frames for FrameMaker if the model uses Method::paper.
 #pragma once
 
 #include <array>
@@ -41,8 +41,8 @@ class PaperFrames {
     find_normals(frame);
   }
 
-  // Advances the pipeline of section 3.5 by one step, see FrameMaker::make_ahead(). Three frames are in
-  // different stages at the same time.
+  // Advances the pipeline of section 3.5 of the paper by one step, see FrameMaker::make_ahead(). Three
+  // frames are in the pipeline at the same time, each in another stage.
   bool make_ahead(const FrameOptions& options, Frame& frame) {
     std::swap(ahead_[1], ahead_[2]);
     std::swap(ahead_[0], ahead_[1]);
@@ -107,7 +107,7 @@ class PaperFrames {
     if (frame.is_height_met) last_ = Found{wanted, frame.options.shape};
   }
 
-  // Scales the heights to the requested height.
+  // Scales the heights so that the relief has exactly the requested height.
   static void finish(Frame& frame) {
     if (!frame.options.height || !frame.is_height_met) return;
     const auto scale = static_cast<float>(*frame.options.height / frame.height);
@@ -120,7 +120,7 @@ class PaperFrames {
 
   PaperRelief relief_;
   SlicedEllMatrix vertex_normals_matrix_;
-  std::optional<Found> last_;   // the shape of the last locked height
+  std::optional<Found> last_;   // the last requested height and the shape found for it
   std::array<Frame, 3> ahead_;  // the frames in the stages: solve, map, normals
   std::size_t frames_begun_ = 0;
 };

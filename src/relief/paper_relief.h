@@ -1,4 +1,4 @@
-// Makes reliefs of a model of Method::paper. src/paper/ has its equations. Tested by
+// Makes reliefs of models that use Method::paper. src/paper/ has the equations. Tested by
 // tests/paper/paper_model_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace relievo {
 
-// Makes the heights of one model, in single precision. Not for concurrent use.
+// Makes the heights of one model of Method::paper, in single precision. Not for concurrent use.
 class PaperRelief {
  public:
   explicit PaperRelief(const PaperModel& model)
@@ -30,7 +30,7 @@ class PaperRelief {
     model_.solve({c.u, c.beta, shape.max_slope, shape.boundary_width}, solve_workspace_, solved_);
   }
 
-  // Passes the result of the last solve() to map(). Then the next solve() may run at the same time as map().
+  // Gives the result of the last solve() to map(), so that the next solve() may run at the same time as map().
   void hand_over() { std::swap(solved_, mapped_); }
 
   // Writes the heights of all visible points, with detail, for the result that hand_over() passed.
@@ -56,10 +56,10 @@ class PaperRelief {
   std::vector<float> solved_, mapped_;  // heights of the control points
 };
 
-// Finds the shape with the requested height. If beta is free, Algorithm 1 searches alpha and beta. If beta is
-// fixed or Algorithm 1 fails, beta stays as requested and u is searched. `raise` makes the relief of `shape`
-// and returns its height. Returns whether the height is met, to 1 % or to `tolerance`; if not, the last
-// relief is the highest one.
+// Finds the shape with the requested height. If beta is free, Algorithm 1 of the paper searches alpha and
+// beta. If beta is fixed or Algorithm 1 fails, beta stays as requested and u is searched. `raise` makes the
+// relief of `shape` and returns its height. Returns whether the relative error of the height is at most 1 %
+// or `tolerance`; if not, the last relief is the highest one.
 template <typename Raise>
 bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& raise) {
   if (shape.is_beta_free) {
@@ -83,8 +83,8 @@ inline Relief make_paper_relief(const PaperModel& model, const Shape& shape) {
   return {{heights.begin(), heights.end()}, height, shape};
 }
 
-// Returns the relief that search_paper_height() finds, scaled to exactly that height. Errors: those of
-// ReliefModel::make_at_height().
+// Returns the relief that search_paper_height() finds, scaled to exactly the requested height. Errors
+// are those of ReliefModel::make_at_height().
 template <typename IsCancelled>
 Result<Relief> make_paper_relief_at(const PaperModel& model, double height, Shape shape, double unit_mm,
                                     const IsCancelled& is_cancelled) {

@@ -30,8 +30,8 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
-  // The parts that depend only on the surface. `solver` is the system of all points or the model of the
-  // control points.
+  // The parts that depend only on the surface. `solver` is either the system of all points or the model
+  // of the control points.
   struct Parts {
     std::vector<PointLayers> layers;
     StepFields fields;
@@ -195,8 +195,7 @@ void give_own_heights(const ReliefModel& model, Relief& relief) {
   relief.height = height_span(relief.heights);
 }
 
-// Makes reliefs of one boundary width in two steps, raise() and finish(). A search for a height needs only
-// the first.
+// Makes reliefs of one boundary width in two steps: raise(), then finish(). A search for a height needs only raise().
 class ReliefModel::Maker {
  public:
   Maker(const ReliefModel& model, const Shape& shape)
@@ -210,8 +209,8 @@ class ReliefModel::Maker {
     input_.attention = attention_;
   }
 
-  // Returns the relief of that shape before finish(). The steps at depth jumps take the share Shape::steps of
-  // `height`, or, if none is given, of the height of slopes and steps together.
+  // Returns the relief of the shape `asked` before finish(). The steps at depth jumps take the share Shape::steps of
+  // `height`. If no height is given, they take this share of the height that slopes and steps have together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);
@@ -286,11 +285,11 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
     });
   }
   if (is_cancelled) return cancelled_error();
-  // A relief above the requested height is scaled down. So every height below the one in this error can be
-  // made.
+  // A relief that is too high can be scaled down. So every height below the one in this error can be made.
   if (!is_met && relief.height < height) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
-  // Scaling makes the height exact. The search ends within a part in 10^5 of it, or above it.
+  // The search ends within a relative error of 10^-5 of the requested height, or above it. Scaling
+  // makes the height exact.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;
   return relief;

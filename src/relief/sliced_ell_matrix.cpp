@@ -139,7 +139,7 @@ SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
   return pattern;
 }
 
-// Writes the coefficients of one row into its lane. Returns whether the pattern has a slot for each entry.
+// Writes the coefficients of one row into its lane. Returns false if an entry has no slot in the pattern.
 bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix::Others> others,
            std::size_t lane, SlicedEllMatrix::Coefficients* coefficients) {
   std::size_t l = 0;

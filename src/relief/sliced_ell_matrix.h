@@ -20,13 +20,13 @@ struct MatrixEntry {
   Vec2f coefficient = Vec2f::Zero();
 };
 
-// The matrix is stored in slices of eight rows, so that vector instructions can read them: the first entry of
-// all eight rows, then the second, and so on. Rows of similar length, within windows of 256 points, share a
-// slice, which reduces padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums are
-// computed in the order in which the entries are given.
+// A sparse matrix, stored in slices of eight rows, so that vector instructions can read it. A slice has the
+// first entry of all eight rows, then the second entry of all rows, and so on. Rows of similar length, within
+// windows of 256 points, share a slice, which reduces padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske
+// and Bishop, 2014). Sums are computed in the order in which the entries are given.
 class SlicedEllMatrix {
  public:
-  // Copies the entries of each point.
+  // Copies the entries. `rows` has one group of entries per point.
   explicit SlicedEllMatrix(const Groups<MatrixEntry>& rows);
 
   // Copies the entries. If the sparsity pattern of `like` contains all these entries in order, that pattern
@@ -40,24 +40,26 @@ class SlicedEllMatrix {
   // constructor) is not counted.
   std::size_t memory() const;
 
-  // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).
+  // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient, over the entries of row i: the
+  // right-hand side of equation (9).
   void divergence(std::span<const Vec2f> slopes, std::span<float> sums) const;
   void divergence(std::span<const Vec2> slopes, std::span<double> sums) const;
 
-  // Writes a unit normal per point, along (x, y, 1), where (x, y) = sum of heights[other] coefficient.
+  // Writes a unit normal per point, along (x, y, 1), where (x, y) = sum of heights[other] *
+  // coefficient over the point's entries.
   void normals(std::span<const float> heights, std::span<Vec3f> normals) const;
 
   static constexpr std::size_t lanes = 8;
-  static constexpr std::size_t window = 256;  // number of points
+  static constexpr std::size_t window = 256;  // number of points whose rows are sorted together
 
   using Others = std::array<Index, lanes>;
   using Coefficients = std::array<float, 2 * lanes>;  // x and y of lane 0, then of lane 1 and so on
 
   struct Pattern {
     std::size_t size = 0;
-    // By lane: number of the point within its window; surplus lanes repeat the last point.
+    // Per lane: index of the point within its window. Surplus lanes repeat the last point.
     std::vector<std::uint8_t> points;
-    std::vector<Index> begin;  // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
+    std::vector<Index> begin;  // slice s has the slots begin[s] up to begin[s + 1]
     std::vector<Others> others;
 
     Index point(std::size_t place) const {

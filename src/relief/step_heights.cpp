@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// The limit of the slopes that explain a part of a depth difference. Near a silhouette, steeper normals are
-// too inaccurate to predict depth.
+// The limit of the slopes that explain a part of a depth difference. Near a silhouette, normals steeper
+// than this are too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
 struct SteppedEdge {
@@ -20,8 +20,8 @@ struct SteppedEdge {
   float weight;
 };
 
-// Returns the edges that have triangle sides with is_wanted(side). Their weights are those of equation (9),
-// but only from these sides.
+// Returns the edges that have at least one triangle side with is_wanted(side). Their weights are those of
+// equation (9), but computed from these sides alone.
 template <typename IsWanted>
 std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wanted) {
   std::vector<SteppedEdge> edges;
@@ -45,13 +45,13 @@ std::vector<SteppedEdge> wall_edges(const Surface& surface) {
   });
 }
 
-// A position on the surface, and the normal there.
+// A position on the surface, and the normal at this position.
 struct Place {
   Vec3 point;
   Vec3f normal;
 };
 
-// Returns the part of the difference in z from a to b that their slopes do not explain.
+// Returns the part of the difference in z from a to b that the slopes at a and b do not explain.
 double step_between(const Place& a, const Place& b) {
   const Vec3 step = b.point - a.point;
   const auto rise = [&](const Vec3f& n) {
@@ -68,7 +68,8 @@ Place place_of(const Surface& surface, Index i) {
   return {surface.points[i], surface.normals[i]};
 }
 
-// Returns, per point, its number among the points that are joined to a wall by at most `steps` edges, or no_index.
+// Numbers the points that are joined to a wall by at most `steps` edges. Returns the number of each point; no_index for
+// all others.
 std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   std::vector<std::uint8_t> is_near(surface.points.size());
   for (std::size_t i = 0; i < surface.boundary.wall_side.size(); ++i)
@@ -85,9 +86,9 @@ std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   return numbers;
 }
 
-// The means of the places on each side of the walls, over about two sampling distances. At a chin before a
-// neck, for example, the front can turn away so far that its last rows of points are nearly as deep as the
-// back. The means still differ by the whole depth.
+// Computes the mean position and normal on each side of the walls, over about two sampling distances.
+// Single points would not do: at a chin before a neck, for example, the front can turn away so far that
+// its last rows of points are nearly as deep as the back. The means still differ by the whole depth.
 class MeansBesideWalls {
  public:
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {
@@ -126,8 +127,8 @@ class MeansBesideWalls {
   std::vector<Place> means_;
 };
 
-// Returns the least-squares solution of equation (9) for given height differences. Across each of the edges,
-// the height of b should exceed that of a by difference(a, b); across all others, both should be equal.
+// Returns the least-squares solution of equation (9) for given height differences. Across each of the given edges, the
+// height of b should exceed that of a by difference(a, b). Across all other edges, both heights should be equal.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
                         const HeightSystem& system, Difference difference) {
@@ -154,7 +155,8 @@ StepFields StepFields::find(const Surface& surface, const HeightSystem& system) 
     return step_between(place_of(surface, a), place_of(surface, b));
   };
   const auto plane = [&](Index a, Index b) {
-    // Rounding to single precision removes the last bits of tanh, in which standard libraries differ.
+    // Results of tanh differ in the last bits between standard libraries. Rounding to single
+    // precision removes these bits.
     return static_cast<double>(static_cast<float>(std::tanh(step_between(means.at(a), means.at(b)) / scale)));
   };
   StepFields found;

@@ -20,7 +20,7 @@ struct Surface;
 // Heights that have steps at the depth jumps of a surface.
 struct StepHeights {
   std::vector<float> z;  // per point, 0 at the boundary; empty if the surface has no depth jump
-  double span = 0;       // highest minus lowest height, where the base, 0, counts, too
+  double span = 0;       // highest minus lowest height; the base, 0, counts as a height
 
   bool empty() const { return z.empty(); }
 };
@@ -31,18 +31,18 @@ struct StepFields {
   // along all other edges it is 0. These heights keep forms that consist of steps, such as letters on a
   // plate.
   StepHeights steps;
-  // Across a wall the height difference is tanh(d / (0.05 side)); along all other edges it is 0. Means are
-  // taken on both sides of the wall over about two sampling distances, and d is the part of their depth
-  // difference that slopes do not explain. So these steps are 1 high at deep jumps, and fade out at the ends
-  // of a jump. They raise each part above the surface behind it.
+  // Across a wall the height difference is tanh(d / (0.05 side)), where side is the longer side; along all
+  // other edges it is 0. Positions and normals are averaged on both sides of the wall over about two sampling
+  // distances. d is the part of the difference in mean depth that slopes do not explain. So these steps are 1
+  // high at deep jumps, and fade out at the ends of a jump. They raise each part above the surface behind it.
   StepHeights planes;
 
   // `system` is the system of all points of the surface.
   static StepFields find(const Surface& surface, const HeightSystem& system);
 };
 
-// Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of
-// the relief's height. Does nothing without height correction, because level parts then must stay level.
+// Adds the planes to the heights z of a layered shape, so that a deep jump rises by about Shape::planes of the relief's
+// height. Does nothing if the shape has no height correction, because level parts must then stay level.
 template <typename Real>
 void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z) {
   if (planes.empty() || shape.style != Style::layered || !shape.is_corrected || shape.planes == 0) return;
@@ -52,8 +52,8 @@ void add_planes(const StepHeights& planes, const Shape& shape, std::span<Real> z
 }
 
 // Adds the step heights to the heights z that slopes give, so that the steps take `share` of the height.
-// `height` is the relief's height before its style compresses it. Without it the slopes determine the height,
-// and the share must be below 1.
+// `height` is the relief's height before its style compresses it. If no height is given, it follows from the
+// slopes and the share, which must be below 1.
 template <typename Real>
 void add_steps(const StepHeights& steps, double share, std::optional<double> height, std::span<Real> z) {
   if (steps.empty() || share == 0) return;
@@ -71,9 +71,9 @@ inline void keep_slopes(Shape& shape) {
   shape.is_corrected = false;
 }
 
-// Returns the share of the height that depth jumps get, as a function of x. HeightSearch varies x in the
-// place of ln u, until slopes and jumps together reach the height. At x = -infinity the share is 0. At x =
-// infinity the jumps are as deep as in the model.
+// Returns the share of the height that depth jumps get, as a function of x. At x = -infinity the share is
+// 0. At x = infinity the jumps are as deep as in the model. HeightSearch varies x instead of ln u, until
+// slopes and jumps together reach the height.
 inline double step_share(const StepHeights& steps, double height, double x) {
   return steps.span / height / (1 + std::exp(-x));
 }

@@ -25,13 +25,13 @@ double distance_to_segment_sq(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * along).squaredNorm();
 }
 
-// A polyline in pieces of a few corners. A point is compared only with pieces whose box is near it.
+// A polyline, divided into pieces of a few corners. A point is compared only with pieces whose box is near it.
 class Line {
  public:
   explicit Line(std::span<const Vec3> corners) : corners_(corners) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       if (i % piece == 0) boxes_.emplace_back();
-      // The segment before a corner belongs to the corner's piece.
+      // A piece also contains the segment that ends at its first corner.
       for (const Vec3& end : {corners[i], corners[i == 0 ? 0 : i - 1]}) boxes_.back().extend(end);
     }
   }
@@ -56,7 +56,7 @@ class Line {
   std::vector<Box> boxes_;  // one per piece
 };
 
-// Returns the points and distances of `all` for which is_kept(i) is true; i is the position in the lists.
+// Returns the points and distances of `all` for which is_kept(i) is true; i is the index in the lists.
 template <typename IsKept>
 StrokePoints kept(const StrokePoints& all, IsKept&& is_kept) {
   const std::vector<Index> some = indices_where(all.points.size(), is_kept);
@@ -82,11 +82,11 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for the wanted triangle sides inside the relief that do not cross a depth jump.
+// Calls f(a, b) for each triangle side inside the relief with is_wanted(a, b), unless it crosses a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
-    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // last, because is_jump() takes longer
+    if (is_wanted(a, b) && !is_jump(surface, a, b)) f(a, b);  // is_jump() comes last, because it takes longer
   });
 }
 
@@ -161,9 +161,9 @@ StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, dou
   return {std::move(inside), std::move(distances)};
 }
 
-// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side: the angle between the
-// normals of neighbouring points over their distance, as a root mean square. The factor sqrt(2) makes it the rate
-// across a crease, because a crease turns in one direction only. The normals are blurred to remove noise.
+// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side. The rate is the angle
+// between the normals of neighbouring points over their distance, as a root mean square. The factor sqrt(2) makes it
+// the rate across a crease, because a crease turns in one direction only. The normals are blurred to remove noise.
 std::vector<float> turning_of(const Surface& surface) {
   constexpr double width = .008, least_width_rho = 1.5;
   const double side = surface.longer_side();
@@ -192,7 +192,7 @@ std::vector<float> turning_of(const Surface& surface) {
   return turning;
 }
 
-// Returns the points of the region with an edge to a point outside of it, except across depth jumps.
+// Returns the points of the region that have an edge to a point outside of it. Edges across depth jumps do not count.
 std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) {
   std::vector<std::uint8_t> is_in(surface.points.size(), 0), is_rim(surface.points.size(), 0);
   for (const Index i : region) is_in[i] = 1;
@@ -205,8 +205,8 @@ std::vector<Vec3> rim_of(const Surface& surface, std::span<const Index> region) 
   return rim;
 }
 
-// Returns the region with its holes filled. A hole is a connected part outside of the region that touches it and has
-// less than a tenth of its points.
+// Returns the region with its holes filled. A hole is a connected part outside of the region that touches the region
+// and has less than a tenth of its points.
 std::vector<Index> without_holes(const Surface& surface, std::span<const Index> region) {
   constexpr std::size_t times_less = 10;
   std::vector<std::uint8_t> is_in(surface.points.size(), 0);
@@ -229,7 +229,7 @@ std::vector<Index> without_holes(const Surface& surface, std::span<const Index> 
   return all;
 }
 
-// Returns the position in `points` of the point nearest to `place`; no_index if it is over 4 rho away.
+// Returns the index in `points` of the point nearest to `place`; no_index if the distance is over 4 rho.
 Index nearest_of(const Surface& surface, std::span<const Index> points, const Vec3& place) {
   constexpr double most_rho = 4;
   double least = most_rho * surface.rho;

@@ -44,14 +44,14 @@ SurfaceLinks surface_links(const Surface& surface) {
   return {std::move(links), point_areas(surface)};
 }
 
-// The blurred heights g solve areas (g - z) = -variance L g, one implicit step of diffusion. With g = z + e this
-// is the system (areas + variance L) e = -variance L z. Around the points e is 0.
+// The blurred heights g solve areas (g - z) = -variance L g, one implicit step of diffusion. With g = z + e this is the
+// system (areas + variance L) e = -variance L z. At the points around the blurred ones e is 0.
 template <typename Real>
 StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points,
                              double sigma)
     : points_(points.begin(), points.end()) {
   std::vector<Index> number = places_in(points_, surface.points.size());
-  // Two solves, each with half of the variance, approximate a Gaussian better than one.
+  // Two solves, each with half of the variance, approximate a Gaussian better than one solve.
   const double variance = sigma * sigma / 4, least_area = 1e-3 * surface.rho * surface.rho;
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<Vec2> places;
@@ -76,7 +76,7 @@ StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, 
   const auto size = static_cast<int>(points_.size());
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  // The matrix is diagonally dominant, so it can be factored.
+  // The factorisation cannot fail, because the matrix is diagonally dominant.
   if (Result<solver::Cholesky> system = solver::Cholesky::factor(matrix, places)) {
     system_.emplace(std::move(*system));
     workspace_.emplace(system_->make_workspace());

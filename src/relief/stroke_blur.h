@@ -11,21 +11,21 @@
 
 namespace relievo {
 
-// The edges and areas of a surface that its blurs need.
+// The edges and areas of a surface, from which blurs are built.
 struct SurfaceLinks {
   struct Link {
     Index to;
-    float weight;  // edge_weight()
+    float weight;  // the result of edge_weight()
   };
-  Groups<Link> links;        // around each point: the edges inside the relief that are no depth jumps
-  std::vector<float> areas;  // a third of the area of the triangles around each point, in the view plane
+  Groups<Link> links;        // per point: its edges inside the relief that are no depth jumps
+  std::vector<float> areas;  // per point: a third of the area of its triangles, in the view plane
 };
 
 // Returns the links and areas of all points of the surface.
 SurfaceLinks surface_links(const Surface& surface);
 
-// Computes the difference between heights and their blur at some points. The blur keeps the heights around the points,
-// and does not cross depth jumps. `Real` is the type of the heights.
+// Computes the difference between heights and their blur at some points. The heights of all other points stay fixed.
+// The blur does not cross depth jumps. `Real` is the type of the heights.
 template <typename Real>
 class StrokeBlur {
  public:
@@ -35,12 +35,12 @@ class StrokeBlur {
   // Computes removed() for the heights z of all points of the surface.
   void take(std::span<const Real> z);
 
-  // Returns z minus blurred z, one per point; empty before the first take().
+  // Returns the height minus the blurred height, one per point; empty before the first take().
   const std::vector<Real>& removed() const { return removed_; }
 
  private:
-  // A link to a point from another point, or from one around the points. A number below the size of points_ is a
-  // position there; higher numbers continue in around_.
+  // A link from a point to a point of points_. `to` is an index in points_. So is `from`, if it is below the size of
+  // points_; higher numbers continue in around_.
   struct Link {
     Index to, from;
     Real pull;

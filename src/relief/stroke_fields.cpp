@@ -76,7 +76,7 @@ void StrokeFields<Real>::take_layers(const Strokes& strokes) {
   std::vector<std::optional<Layer>> old;
   for (Layer& layer : layers_) old.emplace_back(std::move(layer));
   layers_.clear();
-  std::size_t next = 0;  // most strokes keep their order, so the layer after the last kept one is tried first
+  std::size_t next = 0;  // tried first, because most strokes keep their order
   for (const Stroke& stroke : strokes) {
     const auto is_same = [&](const std::optional<Layer>& layer) { return layer && layer->stroke == stroke; };
     const auto found = next < old.size() && is_same(old[next])
@@ -103,7 +103,7 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   sum_masks();
 }
 
-// Computes StrokeBlur::removed() of all layers, except where it is already known for these heights.
+// Computes StrokeBlur::removed() of all layers, except of those that already have it for these heights.
 template <typename Real>
 void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   const bool is_same = std::ranges::equal(z, blurred_);
@@ -111,13 +111,13 @@ void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   std::vector<StrokeBlur<Real>*> blurs;
   for (Layer& layer : layers_)
     if (layer.blur && !(is_same && !layer.blur->removed().empty())) blurs.push_back(&*layer.blur);
-  if (blurs.size() == 1) return blurs[0]->take(z);  // one blur may use all threads
+  if (blurs.size() == 1) return blurs[0]->take(z);  // a single blur may use all threads
   parallel_for(
       blurs.size(), [&](std::size_t i) { blurs[i]->take(z); }, 1);
 }
 
-// Computes the sums that depend on the strokes alone. Several strokes together may not subtract more than a
-// blur removes.
+// Computes the sums that depend on the strokes alone. They are limited, because several strokes together
+// must not subtract more than a blur removes.
 template <typename Real>
 void StrokeFields<Real>::sum_masks() {
   const std::vector<Index> number = places_in(changed_, surface_->points.size());
@@ -144,7 +144,7 @@ void StrokeFields<Real>::sum_masks() {
   }
 }
 
-// Calls f(layer) for the layers of one brush that have points.
+// Calls f(layer) for each layer that has this brush and at least one point.
 template <typename Real>
 template <typename F>
 void StrokeFields<Real>::each_of(Brush brush, F&& f) const {
@@ -152,7 +152,8 @@ void StrokeFields<Real>::each_of(Brush brush, F&& f) const {
     if (layer.stroke.brush == brush && !layer.mask.points.empty()) f(layer);
 }
 
-// Adds the changes of blurs, Brush::raise and Brush::sink, which do not depend on the order of the strokes.
+// Adds the changes of Brush::raise, Brush::sink and the brushes that blur. These changes do not depend on
+// the order of the strokes.
 template <typename Real>
 void StrokeFields<Real>::add_sums(double height, std::span<Real> z) {
   take_blurs(z);

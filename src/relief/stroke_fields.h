@@ -18,14 +18,14 @@ namespace relievo {
 // mask is empty if the visible surface has no point of the stroke.
 StrokeMask stroke_mask(const Surface& surface, const Stroke& stroke);
 
-// The strokes of a relief on one surface, which must outlive this object. `Real` is the type of the heights.
+// The strokes of a relief on one surface. The surface must outlive this object. `Real` is the type of the heights.
 template <typename Real>
 class StrokeFields {
  public:
   explicit StrokeFields(const Surface& surface) : surface_(&surface) {}
 
-  // Takes these strokes in place of the former ones. Strokes that did not change keep their masks and systems, so that
-  // a stroke that is being drawn costs little more than itself.
+  // Replaces the strokes. Strokes that did not change keep their masks and systems, so that while one stroke is being
+  // drawn only that stroke costs time.
   void take(const Strokes& strokes);
 
   bool empty() const { return changed_.empty(); }
@@ -37,9 +37,9 @@ class StrokeFields {
   void apply(double height, std::span<const Real> uncorrected, std::span<Real> z);
 
  private:
-  // How much of the detail that a stroke's blur removes is added to one point, as a factor.
+  // A factor for one point: this share of the detail that the stroke's blur removes is added to the point's height.
   struct Share {
-    Index at;  // number of the point in changed_
+    Index at;  // index in changed_
     Real share;
   };
   struct Layer {
@@ -62,8 +62,9 @@ class StrokeFields {
   std::optional<SurfaceLinks> links_;  // computed when a blur first needs them
   std::vector<Layer> layers_;          // one per stroke
   std::vector<Index> changed_;         // the points under at least one stroke
-  std::vector<Real> blurred_;          // the heights that were blurred last
-  // One per point of changed_: by how much strokes raise it, as a share of the height; and scratch memory.
+  std::vector<Real> blurred_;          // the heights that blurs were last computed for
+  // One value per point of changed_. risen_ is the height by which strokes raise the point, as a share of
+  // the relief's height; added_ is scratch memory.
   std::vector<Real> risen_, added_;
 };
 

@@ -18,8 +18,8 @@ void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, doub
     const Vec3 away = heights.surface.points[i] - middle;
     return Vec3(away.x(), away.y(), heights.surface.rho);
   };
-  Mat3 squares =
-      Mat3::Identity() * 1e-12 * heights.surface.rho * heights.surface.rho;  // if the mask has no width
+  // The small diagonal keeps the matrix regular if the mask has no width.
+  Mat3 squares = Mat3::Identity() * 1e-12 * heights.surface.rho * heights.surface.rho;
   Vec3 sums = Vec3::Zero();
   for (std::size_t k = 0; k < mask.points.size(); ++k) {
     const Vec3 terms = terms_at(mask.points[k]);

@@ -23,23 +23,23 @@ struct CorrectedHeights {
   std::span<Real> z;
 };
 
-// Moves the heights under a stroke, by their weights times `amount`, towards the uncorrected heights plus the plane
-// that fits the height correction best. If the result would exceed the height of the relief anywhere, the plane is
-// lowered. The mask must not be empty. Instantiated for float and double.
+// Moves the heights under a stroke towards the uncorrected heights plus the plane that fits the height correction best.
+// Each height moves by its weight times `amount`. If the result would exceed the height of the relief anywhere, the
+// plane is lowered. The mask must not be empty. Instantiated for float and double.
 template <typename Real>
 void protect(const CorrectedHeights<Real>& heights, const StrokeMask& mask, double amount);
 
-// An edge from a point of a mask across a depth jump.
+// An edge that leads from a point of a mask across a depth jump.
 struct Crossing {
-  Index from;    // number of the point in the mask
-  Index behind;  // the point of the surface behind it
+  Index from;    // index in the points of the mask
+  Index behind;  // index of the surface point at the deeper end
 };
 
 // Returns the edges across depth jumps that begin at points of the mask with a weight of at least 1/2, and end at
 // deeper points outside of the mask.
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
 
-// The heights by which a stroke is to stand above the surface behind it.
+// The rise that a stroke should have above the surface behind it.
 template <typename Real>
 struct InFront {
   std::span<const Crossing> crossings;
@@ -47,9 +47,9 @@ struct InFront {
   Real height;  // the height of the relief
 };
 
-// Raises the heights z under a stroke by their weights times r (1 - z / height), so that nothing exceeds the height and
-// higher points stay higher. r is the least value with which all crossings have their step; it is at most the height,
-// which may be too little for points near the top. Instantiated for float and double.
+// Raises the heights z under a stroke by their weights times r (1 - z / height). So nothing exceeds the height, and
+// higher points stay higher. r is the least value with which all crossings have their step. It is at most the height,
+// so points near the top may get less than their step. Instantiated for float and double.
 template <typename Real>
 void bring_forward(const InFront<Real>& wanted, const StrokeMask& mask, std::span<Real> z);
 

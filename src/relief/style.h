@@ -1,4 +1,5 @@
-// Defines the two styles of reliefs. All differences between the styles are in this file.
+// Defines the two styles, layered and paper weights. All differences between reliefs of the two
+// styles are in this file.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace relievo {
 
-// Returns the inputs of the slope functions. They refer to the arguments, which must outlive them.
+// Returns the inputs of the slope functions. The result refers to the arguments, which must outlive it.
 inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayers> layers,
                               std::span<const float> boundary_weight) {
   return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
@@ -36,7 +37,7 @@ struct RaisedHeights {
   HeightSpan<Real> span = {};            // span of z, set by raise() and finish()
   double height = 0;                     // height of the relief, set by raise() and finish()
 
-  // Calls change(i, z), which may change the height z, for every height. Returns the span of the results.
+  // Calls change(i, z) for every height z; the call may change z. Returns the span of the results.
   template <typename Change>
   HeightSpan<Real> change_all(Change change) const {
     spans.resize((z.size() + default_grain - 1) / default_grain);
@@ -58,17 +59,16 @@ struct RaisedHeights {
 // into very large changes of slopes.
 inline constexpr float least_gain_divisor = .25F;
 
-// A style is used in this order: slope() for every point, with the w_k of weighted(); then the solution of
-// equation (9), which gives the heights; raise(), which determines the relief's height; and, if this is the
-// requested height, finish().
+// A style is used in this order. slope() is called for every point, with the w_k of weighted(). Equation (9) is solved,
+// which gives the heights. raise() determines the relief's height. If this is the requested height, finish() is called.
 
-// Equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which adds detail in
-// proportion to the curvature.
+// Implements equations (5) to (7) of the paper on our surface, and the paper's second equation (9), which
+// adds detail in proportion to the curvature.
 class PaperWeightsStyle {
  public:
   explicit PaperWeightsStyle(const Shape& shape) : shape_(shape) {}
 
-  // Returns the compression for the weights w_k of slope().
+  // Returns the compression from which the weights w_k of slope() are computed.
   Compression weighted() const { return shape_.compression; }
 
   template <typename Real>
@@ -77,13 +77,13 @@ class PaperWeightsStyle {
                             static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns the derivative of the slope by -(n_x, n_y).
+  // Returns the derivative of the slope with respect to -(n_x, n_y).
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const float w = w_k * w_b;
     return w / std::max(w * input.normals[i].z() + 1 - w, least_gain_divisor);
   }
 
-  // Adds the detail.
+  // Adds detail in proportion to the curvature.
   template <typename Real>
   void raise(RaisedHeights<Real>& heights) const {
     const Real amount = static_cast<Real>(shape_.gamma) * heights.measured().size();
@@ -132,7 +132,7 @@ class LayeredStyle {
                          static_cast<Real>(shape_.max_slope));
   }
 
-  // Returns the derivative of the slope by the fine layer.
+  // Returns the derivative of the slope with respect to the fine layer.
   float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
     const LayerWeights& weights = layer_weights(input, i);
     const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights.height_share;
@@ -165,7 +165,7 @@ class LayeredStyle {
   double scale_;
 };
 
-// Returns f(style), where style is that of the shape. The shape must outlive the call.
+// Returns f(style), where `style` implements the style of the shape. The shape must outlive the call.
 template <typename F>
 decltype(auto) with_style(const Shape& shape, F&& f) {
   return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperWeightsStyle(shape));

@@ -13,9 +13,9 @@ bool is_share(double x) {
   return x >= 0 && x <= 1;
 }
 
-// Returns slopes at the points. With them the curve stays between the values at the ends of each interval. A
-// slope is the weighted harmonic mean of the slopes of both adjacent chords, or 0 at an extremum. Source:
-// Fritsch and Butland, A method for constructing local monotone piecewise cubic interpolants, 1984.
+// Returns the slopes of the curve at the points. With these slopes the curve stays between the values at the ends of
+// each interval. A slope is the weighted harmonic mean of the slopes of both adjacent chords, or 0 at an extremum.
+// Source: Fritsch and Butland, A method for constructing local monotone piecewise cubic interpolants, 1984.
 std::vector<double> monotone_slopes(const std::vector<Vec2>& points) {
   std::vector<double> slopes(points.size(), 0.0);
   const auto step = [&](std::size_t i) -> Vec2 { return points[i + 1] - points[i]; };

@@ -1,4 +1,5 @@
-// Tabulates equation (6). Frames look weights up, because the formula needs an exponential and a logarithm.
+// Tabulates equation (6). Frames look weights up in this table, because the formula needs an exponential
+// and a logarithm.
 #pragma once
 
 #include <bit>
@@ -41,7 +42,7 @@ class WeightTable {
 
  private:
   static constexpr std::uint32_t fraction_bits =
-      16;  // number of fraction bits (of 23) that interpolate; the other 7 are part of the index
+      16;  // fraction bits (of 23) for the interpolation; the other 7 belong to the index
   static constexpr std::uint32_t first_place = std::bit_cast<std::uint32_t>(0x1p-24F) >> fraction_bits;
   static constexpr std::uint32_t last_place = std::bit_cast<std::uint32_t>(1.F) >> fraction_bits;
 

@@ -88,7 +88,7 @@ Shape layered_shape() {
   Shape shape{{1, 0}, .04};
   shape.style = Style::layered;
   shape.planes = .07;
-  shape.boundary_width = .3;  // a wider one bends the surface at silhouettes, see docs/decisions/layers.md
+  shape.boundary_width = .3;  // a wider soft rim bends the surface at silhouettes: docs/decisions/layers.md
   return shape;
 }
 

@@ -4,8 +4,8 @@
     PYTHONPATH=PACKAGE dask_run.py PROGRAM [--good 980] [--bad 20]
 
 PACKAGE is the folder that has the package relievo with its built module, for example build/release/python.
-A worker is killed in the middle (kill -9), then the whole run; then the run is started again. There must be a relief of
-each good scan and an error of each bad one, none twice and none in part, with the bytes that `relievo make` writes.
+A worker is killed in the middle (kill -9), then the whole run. Then the run is started again. In the end there must be
+a relief of each good scan, complete and with the bytes that `relievo make` writes, and one error of each bad scan.
 """
 
 import argparse
@@ -39,7 +39,7 @@ def journal(output):
 
 
 def wait_for(count, output, process, log):
-    """Waits until the journal has that many records."""
+    """Waits until the journal has `count` records."""
     while len(journal(output)) < count:
         if process.poll() is not None:
             sys.exit(f"the run ended before it could be killed, with {process.returncode}: {content(log).decode()}")
@@ -129,8 +129,8 @@ def check(output, scans, program, good, bad, first):
     assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
     for name in bad:
         assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
-    # A scan may have been started twice only if a worker or the run was killed while it was being made. No scan was
-    # finished twice.
+    # No scan may be finished twice. A scan may be started twice only if a worker or the run was killed while the scan
+    # was being made.
     lines = journal(output)
     made = [record["name"] for record in lines if record["status"] == "made"]
     assert len(made) == len(set(made)) == len(good), f"{len(made)} made, {len(set(made))} different"

@@ -1,4 +1,4 @@
-// Tests ZIP archives as web sites for models offer them.
+// Tests ZIP archives such as web sites for models offer for download.
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(Archive, ATextAloneIsACloud) {
   }
 }
 
-// Returns the model in an archive of NumPy with arrays of these names and bytes.
+// Returns the model in a NumPy archive. `arrays` has the name and the bytes of each array.
 Result<SceneModel> read_npz(const std::vector<std::pair<std::string, std::string>>& arrays) {
   const std::string archive = archive_of(arrays);
   return parse_input(std::as_bytes(std::span(archive)), "a.npz", {}, 1e5, nullptr);
@@ -126,8 +126,8 @@ TEST(Archive, FormatsThatAreArchivesAreNamed) {
   EXPECT_TRUE(answer.error().message().ends_with("found a USD file; Blender exports it as glTF or PLY"));
 }
 
-// Changes a field in both headers of the archive's only file. The field is `at` bytes after the field
-// "version needed".
+// Changes a field in both headers of the archive's only file. The field begins `at` bytes after the
+// field "version needed".
 std::string changed_headers(std::string archive, std::size_t at, std::uint16_t to) {
   archive = patched(archive, archive.find("PK\x03\x04") + 4 + at, to);
   return patched(archive, archive.find("PK\x01\x02") + 6 + at, to);

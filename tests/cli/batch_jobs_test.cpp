@@ -67,7 +67,7 @@ TEST_F(BatchJobs, AreTheScansOfAFolder) {
   ASSERT_TRUE(jobs);
   std::vector<std::string> names;
   for (const Job& job : *jobs) names.push_back(job.name);
-  // Pictures beside models are textures, and the outputs of a run are not scans.
+  // Pictures beside models are not scans but textures. The outputs of a run are not scans either.
   EXPECT_EQ(names, (Cells{"b/c/x", "b/x", "b/x-2", "depths/d", "torus"}));
   EXPECT_EQ(skipped_files({folder_.string(), "", (folder_ / "out").string(), {}}, *jobs),
             (Cells{"b/notes.pdf", "b/texture.png"}));

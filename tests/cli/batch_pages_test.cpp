@@ -52,7 +52,7 @@ TEST(ContactSheet, HasAPlaceForEachTile) {
   EXPECT_EQ(dark, 7U * 20 * 20 * 3);
 }
 
-// Returns the number of pixels of that colour. Fails if one of them is outside the given columns and rows.
+// Returns the number of pixels that have the given colour. Fails if one of them is outside the given columns and rows.
 int count_within(const Image8& image, int left, int right, int top, int bottom) {
   int count = 0;
   for (int y = 0; y < image.height; ++y)
@@ -71,7 +71,7 @@ TEST(Caption, StaysWithinItsPlace) {
     return image;
   };
   EXPECT_EQ(count_within(written(""), 0, 0, 0, 0), 0);
-  // The letter l is a stem of seven pixels with a foot of two pixels and a serif of one.
+  // The letter l of the page's font is a stem of seven pixels, a foot of two pixels and a serif of one pixel.
   EXPECT_EQ(count_within(written("l"), 47, 53, 8, 15), 7 + 3);
   const int three = count_within(written("lll"), 41, 59, 8, 15);
   EXPECT_EQ(three, 3 * 10);

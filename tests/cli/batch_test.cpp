@@ -1,4 +1,4 @@
-// Tests runs over catalogues: outputs that are made or kept, and jobs and runs that end early.
+// Tests runs over catalogues: which outputs are made or kept, and jobs and runs that end early.
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -22,7 +22,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Runs jobs without making reliefs: the content of a job's solid is the list of its arguments.
+// Runs jobs without making reliefs. Instead, a job writes the list of its arguments as its solid.
 class BatchRun : public CliFolder {
  protected:
   void SetUp() override {
@@ -93,7 +93,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// A second run keeps finished outputs. It repeats killed jobs, but not jobs whose errors would occur again.
+// A second run keeps finished outputs. It repeats killed jobs, but not failed jobs, whose errors would occur again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));
@@ -110,8 +110,8 @@ TEST_F(BatchRun, DoesNothingTwice) {
   EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
 }
 
-// If an option is changed and changed back, the last outputs are those of the changed option. So the outputs
-// must be made again.
+// After an option is changed and changed back, the existing outputs are those of the changed option. So the
+// outputs must be made again.
 TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
   jobs_.resize(1);
   run_jobs();
@@ -125,7 +125,7 @@ TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
   jobs_.resize(2);
   run_jobs();
   const std::string text = read_all(journal_path());
-  write_all(journal_path(), text.substr(0, text.size() - 20));  // as after a power failure
+  write_all(journal_path(), text.substr(0, text.size() - 20));  // as a power failure leaves it
   EXPECT_EQ(run_jobs(), (Counts{1, 0, 1}));
   EXPECT_EQ(run_jobs(), (Counts{0, 0, 2}));
 }

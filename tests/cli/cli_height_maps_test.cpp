@@ -1,5 +1,5 @@
-// Tests the height maps that the program writes: the size and meaning of their pixels, as stated in the files
-// and in the report.
+// Tests the height maps that the program writes: the size and the meaning of their pixels, as the files and
+// the report state them.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -27,7 +27,7 @@ class CliHeightMaps : public CliFolder {
     return value_of(read_depth_image(std::as_bytes(std::span(bytes_)), file)).values;
   }
 
-  // Returns the horizontal and vertical pixels per metre in the chunk pHYs of a PNG.
+  // Returns the pixels per metre, horizontally and vertically, in the chunk pHYs of a PNG.
   std::pair<unsigned, unsigned> pixels_per_metre() const {
     const std::size_t at = bytes_.find("pHYs") + 4;
     const auto number = [&](std::size_t from) {
@@ -54,12 +54,12 @@ TEST_F(CliHeightMaps, HavePixelsOfExactSizeWithoutASolid) {
   const std::set<std::string> kinds{".png", ".ply"};
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     EXPECT_TRUE(kinds.contains(entry.path().extension())) << entry.path();
-  EXPECT_EQ(map("--pixel 0.01in").width, 473);  // 472.4 pixels: the outer columns are incomplete
+  EXPECT_EQ(map("--pixel 0.01in").width, 473);  // 472.4 pixels, so the outer columns are incomplete
   EXPECT_EQ(map("--pixel 0.5", "h.tif").width, 240);
 }
 
-// If the size of a pixel divides the plate evenly, the map is the same as with the corresponding number of
-// pixels.
+// If the given size of a pixel divides the plate evenly, the map is the same as with the corresponding
+// number of pixels.
 TEST_F(CliHeightMaps, OfAPitchAreThoseOfTheSameNumberOfPixels) {
   const Image<float> by_pitch = map("--pixel 0.5");
   EXPECT_EQ(by_pitch.pixels, map("--heightmap-size 240").pixels);
@@ -69,8 +69,8 @@ TEST_F(CliHeightMaps, OfTheReliefAloneHaveNeitherMarginNorRim) {
   const Image<float> plate = map("--pixel 0.25", "h.tif"),
                      relief = map("--pixel 0.25 --heightmap-area relief", "h.tif");
   EXPECT_EQ(plate.height, 320);
-  EXPECT_NEAR(relief.height, (80 - 2 * 4 - 2 * 5) * 4, 4);  // without the rim and the margin
-  // The relief is at the centre of the plate, so the smaller map is the central part of the larger one.
+  EXPECT_NEAR(relief.height, (80 - 2 * 4 - 2 * 5) * 4, 4);  // the plate without rim and margin
+  // The relief is at the centre of the plate. So the map of the relief agrees with the central part of the plate's map.
   const int left = (plate.width - relief.width) / 2, top = (plate.height - relief.height) / 2;
   double difference = 0;
   for (int y = 0; y < relief.height; ++y)

@@ -1,5 +1,5 @@
-// Tests errors that users of the program make. Each must end with an exit code and one line, and leave no
-// file.
+// Tests mistakes that users of the program make. The program must print one line, return an error's exit
+// code, and leave no file.
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"

@@ -1,5 +1,5 @@
-// Tests the solids and height maps that the program writes. Solids are read without the library, and their
-// volumes are compared with closed forms.
+// Tests the solids and height maps that the program writes. The solids are read without the library's
+// code, and their volumes are compared with closed forms.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,8 +39,8 @@ ReadSolid solid_in_3mf(const std::string& file) {
   return solid;
 }
 
-// The 3MF file has the same solid as the STL file. The values of the height map range from the ground to the
-// relief's highest point.
+// The 3MF file has the same solid as the STL file. The values of the height map range from the height of the
+// ground to the relief's highest point.
 TEST_F(CliSolids, Writes3mfAndTiff) {
   const std::string options = "make torus.ply --height 3 --tolerance 0.05 --quiet";
   EXPECT_EQ(run(options + " -o t.3mf --heightmap h.tif --report r.json").exit_code, 0);
@@ -53,13 +53,13 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   ASSERT_TRUE(map) << map.error().message();
   const auto [lowest, highest] = std::ranges::minmax(map->values.pixels);
   EXPECT_NEAR(highest - lowest, 3, .02);
-  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner is in the margin
+  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner pixel is in the margin
   const nlohmann::json report = nlohmann::json::parse(read_all(folder_ / "r.json"), nullptr, false);
   EXPECT_LE(report.value("simplification_error_mm", 1.0), .05);
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
 }
 
-// Relief and die together fill a block. The plate of a lithophane is 0.8 mm thick.
+// The relief and its die together fill a block. The plate of a lithophane is 0.8 mm thick.
 TEST_F(CliSolids, MakesEveryForm) {
   const auto made = [&](const std::string& form) {
     const std::string file = form + ".stl";
@@ -108,7 +108,7 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   }
 }
 
-// The arc of the ground is as long as the flat plate. Its chord is the width of the bent solid.
+// The bent ground is as long along its arc as the flat plate. The chord of this arc is the width of the bent solid.
 TEST_F(CliSolids, TellsHowWideASphereLeavesTheGround) {
   const Outcome made =
       run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");

@@ -35,8 +35,8 @@ int count(const std::string& text, std::string_view part) {
   return found;
 }
 
-// Seen along its axis, the torus is 2.8 units wide. The relief is 50 mm wide and 3 mm high, on a plate of 3
-// mm with margins of 5 mm.
+// The torus is 2.8 units wide, seen along its axis. The relief is 50 mm wide and 3 mm high, on a plate that
+// is 3 mm thick and has margins of 5 mm.
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
       run("make torus.ply -o t.stl --preview t.png --heightmap h.png --heightmap-size 100 --report r.json "
@@ -200,8 +200,8 @@ TEST_F(Cli, TellsWhatIsInAScan) {
     size >> side >> comma;
     EXPECT_NEAR(side, expected, .01);
   }
-  // The surface of the torus has the area 0.4 * 4 pi^2. The expected spacing is that of a grid with as many
-  // points on this area.
+  // The surface of the torus has the area 0.4 * 4 pi^2. The expected spacing is that of a square grid with
+  // as many points on the same area.
   const double in_a_grid = 2 * std::numbers::pi * std::sqrt(.4 / 20000);
   EXPECT_NEAR(std::stod("0" + line_of(outcome.out, "spacing")) / in_a_grid, 1, .1);
 }
@@ -235,7 +235,7 @@ TEST_F(Cli, ComparesMethods) {
   EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
   const std::string page = read_all(folder_ / "page.html");
   EXPECT_NE(page.find("<title>Reliefs of a&amp;b &lt;torus&gt;.ply</title>"), std::string::npos);
-  EXPECT_EQ(count(page, "<tr>"), 1 + 2);                                   // heading and heights
+  EXPECT_EQ(count(page, "<tr>"), 1 + 2);  // a row of headings, and a row per height
   EXPECT_EQ(count(page, "src=\"data:image/png;base64,iVBORw0KG"), 1 + 4);  // the model and the reliefs
   EXPECT_EQ(count(page, "alt=\"Relief by linear, 5 % high\""), 1);
   const std::string table = run("compare torus.ply --height 0.05").out;

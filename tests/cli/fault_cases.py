@@ -1,4 +1,4 @@
-"""The cases of scripts/fault-campaign: they cause each fault in each command, and check its consequences."""
+"""The cases of scripts/fault-campaign. They cause each fault in each command, and check the consequences."""
 
 import shutil
 import signal
@@ -14,7 +14,7 @@ OUTPUTS = ("a.stl", "a.png", "a.tif")
 
 
 def run_with_fault(place, kind, chance, command, name):
-    """Runs a program with a fault. Returns its exit code, its errors, and whether the fault came before its end."""
+    """Runs a program with a fault. Returns its exit code, its errors, and whether the fault came before it ended."""
     faults, most = place.faults, place.setup.most[name]
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, chance.randint(1, most[0]), chance.choice([1, 1, 3, 10**9]))
@@ -23,7 +23,7 @@ def run_with_fault(place, kind, chance, command, name):
     elif kind == "read":
         faults.arm(Faults.READS, chance.randint(1, most[6]), chance.choice([1, 10**9]))
     process = place.start(command, {})
-    if kind == "kill" and chance.random() < 0.5:  # half of the signals come while outputs are being written
+    if kind == "kill" and chance.random() < 0.5:  # half of the signals come while the program writes outputs
         while process.poll() is None and not place.is_writing():
             time.sleep(0.003)
         time.sleep(chance.uniform(0, 0.02))
@@ -93,8 +93,8 @@ def batch(setup, kind, chance, number):
         place.mark_as_batch()
         place.add_foreign_files(place.out)
         code, errors, has_hit = run_with_fault(place, kind, chance, batch_command(place), "batch")
-        # The mark of a batch's folder may be removed before its other files. Then the program finds a folder that is
-        # neither empty nor a batch's, and refuses it.
+        # The mark of a batch's folder may be removed before the folder's other files. Then the program finds a folder
+        # that is neither empty nor made by a batch, and refuses it.
         if kind == "folder gone" and code == 2 and "expected an empty folder, or one of relievo batch" in errors:
             return has_hit
         check_end(kind, code, errors)
@@ -104,7 +104,7 @@ def batch(setup, kind, chance, number):
         if kind != "folder gone":
             place.check_foreign_files()
             for name, content in files_in(place.out).items():
-                is_of_all = name == "contact-sheet.png"  # it shows all scans that were made
+                is_of_all = name == "contact-sheet.png"  # this picture shows all scans that were made, so it may differ
                 require(is_of_all or name not in whole or content == whole[name], name, "is not whole")
         place.faults[Faults.CLOCK] = 0
         is_of_others = place.out.is_dir() and any(place.out.iterdir()) and not place.is_marked()

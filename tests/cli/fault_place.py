@@ -11,8 +11,8 @@ from pathlib import Path
 
 SIZE = ["--method", "linear", "--denoise", "0", "--width", "30", "--height", "1", "--resolution", "0.5"]
 SIGNALS = (signal.SIGKILL, signal.SIGINT, signal.SIGTERM)
-NO_ROOM, BROKEN = 28, 5  # ENOSPC, EIO
-PATIENCE = 300  # a program that takes more seconds counts as stuck
+NO_ROOM, BROKEN = 28, 5  # the error numbers ENOSPC and EIO
+PATIENCE = 300  # seconds after which a program counts as stuck
 
 
 class Find(Exception):
@@ -63,7 +63,7 @@ class Faults:
 
 
 def failing_allocations(faults, chance):
-    """Chooses the allocations that fail: one, or all large ones from a chosen one on. Returns (first, count)."""
+    """Chooses which allocations fail: a single one, or all large ones after a number. Returns (first, count)."""
     count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
     return int(10 ** chance.uniform(0, most)), count
 
@@ -98,7 +98,8 @@ class Place:
         self.setup, self.folder = setup, setup.folder / str(number)
         self.out, self.state = self.folder / "out", self.folder / "state"
         self.mounted = []
-        # Some file systems support files without names, and others do not. Odd and even numbers test one kind each.
+        # Some file systems support files without names, others do not. Places with odd and with even numbers test one
+        # case each.
         self.environment = {"NO_TMPFILE": "1"} if str(number)[-1] in "13579" else {}
 
     def __enter__(self):
@@ -170,7 +171,7 @@ class Place:
         self.mounted.append(path)
 
     def fill_disk(self, path, free):
-        """Fills the disk until only that many bytes are free."""
+        """Fills the disk until only the given number of bytes is free."""
         room = os.statvfs(path)
         with open(path / "filling", "wb") as file:
             file.write(bytes(max(0, room.f_bavail * room.f_frsize - free)))
@@ -207,8 +208,8 @@ def files_in(folder):
 
 
 def temporaries(folder):
-    """Returns the names of temporary files, all of which end with two numbers. A program that is killed just after it
-    made a file has not marked it as its own yet, so nobody may remove it; such a file is empty and does not count."""
+    """Returns the names of the temporary files that are not empty. Such names end with two numbers. An empty file does not
+    count: a program that is killed just after it made the file has not marked it as its own, so nobody may remove it."""
     return [path.name for path in folder.rglob("*.relievo-[0-9]*-[0-9]*") if size_of(path)] if folder.is_dir() else []
 
 

@@ -145,7 +145,7 @@ def send_slowly(page, chance, is_over):
 
 
 def fault_in_studio(page, kind, chance, document):
-    """Works with the studio while a fault lasts. Returns whether the fault came."""
+    """Sends requests to the studio while a fault lasts. Returns whether the fault came."""
     faults, is_over, others = page.place.faults, threading.Event(), []
     if kind == "allocation":
         faults.arm(Faults.ALLOCATIONS, *failing_allocations(faults, chance))
@@ -185,7 +185,7 @@ def check_studio(page, kind, document, picture):
     page.place.faults[Faults.CLOCK] = 0
     page.must("open", page.opening("shell"))
     error = page.wait(document)
-    if error:  # the error belongs to work that was done during the fault
+    if error:  # an error belongs to work that was done during the fault
         page.must("view", {"document": document, "view": "front"})
         error = page.wait(document)
     require(not error, "studio: cannot prepare the scan again:", error)

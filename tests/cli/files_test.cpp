@@ -24,7 +24,8 @@ class Files : public CliFolder {
  protected:
   std::string path(const char* name) const { return (folder_ / name).string(); }
 
-  // Writes a file as a killed process leaves it. Returns false if the file system has no attributes.
+  // Writes a file as a killed process leaves it, with the mark of a temporary file. Returns false if
+  // the file system does not support attributes.
   bool leave(const char* name) const {
     write_all(path(name), "unfinished");
     return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
@@ -81,8 +82,8 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_EQ(files(), before + 2) << "nothing is left of what could not take its place";
 }
 
-// Names of temporary files end with consecutive numbers. In this test, files with the next 2,000 numbers
-// already exist.
+// Names of temporary files end with consecutive numbers. Here, files with the next 2,000 numbers already
+// exist, so the program has to skip these numbers.
 TEST_F(Files, NothingIsRemovedThatWasThere) {
   write_all(path("a.stl"), "old");
   std::vector<std::string> names{"a.stl.relievo-abcdef", "a.stl.relievo-ABCDEF", "a.stl.relievo-"};
@@ -96,8 +97,8 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// The test writes the files that a process leaves if it is killed just before it replaces a file by the
-// finished new one.
+// The test itself writes the files that a process leaves if it is killed just before it replaces an old
+// file by the finished new one.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   if (!leave("a.stl.relievo-1-1") || !leave("b.stl.relievo-1-1")) GTEST_SKIP() << "no attributes here";
@@ -147,7 +148,7 @@ TEST_F(Files, TemporaryFilesHaveTheirPermissionsAndLeaveTheMaskAlone) {
   ::umask(before);
 }
 
-// While one thread handles the signal, the other threads continue to make files.
+// One thread handles the signal. Meanwhile the other threads continue to make files.
 TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 #ifdef __SANITIZE_THREAD__
   GTEST_SKIP() << "this sanitizer delays signals";
@@ -175,7 +176,7 @@ TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
 }  // namespace
 }  // namespace relievo
 
-// Replaces umask() of the C library, to count its calls.
+// Replaces umask() of the C library by a function that counts its calls.
 extern "C" mode_t umask(mode_t mask) {
   ++relievo::calls_of_umask;
   return static_cast<mode_t>(::syscall(SYS_umask, mask));

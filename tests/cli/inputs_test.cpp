@@ -1,5 +1,4 @@
-// Tests inputs on a disk: buffers beside a glTF, meshes that are read in parts, and names with control
-// characters.
+// Tests inputs on a disk: buffers beside a glTF file, meshes that are read in parts, and names with control characters.
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
@@ -40,7 +39,7 @@ TEST_F(CliInputs, ReadsNoFileOutsideTheFolderOfAGltf) {
   expect_refusal("info scans/a.gltf", "expected a file in the same folder, found '../b.bin'");
 }
 
-// The triangles use three of the five points. One of the other points is not finite, and one is far away.
+// The triangles use three of the five points. Of the unused points, one is not finite and one is far away.
 TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   write_all(folder_ / "a.obj",
             "v 0 0 0\nv 2 0 0\nv 0 3 0\nv nan 0 0\nv 0 0 1e30\nvn 0 0 1\nvn 0 0 -1\n"
@@ -52,7 +51,7 @@ TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
   EXPECT_EQ(line_of(run("info s.json").out, "from"), "0, 0, 50");
 }
 
-// A small ball beside a button is left out, and so is noise. Each remark names the option that keeps it.
+// A small ball beside a button is left out, and so is noise. The remark about each names the option that keeps it.
 TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
   const Cloud crumb = moved(sphere(200, .03), {1.6, 0, 0});
   write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));
@@ -69,7 +68,7 @@ TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
             std::string::npos);
 }
 
-// Returns the file of a cloud with a face added to it.
+// Returns the file of a cloud, with a face added.
 std::string with_face(std::string cloud) {
   cloud.insert(cloud.find("end_header\n"), "element face 1\nproperty list uchar int vertex_indices\n");
   return cloud + "\3" + raw(0) + raw(1) + raw(2);
@@ -83,8 +82,8 @@ TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
 }
 
-// In WebAssembly, a cloud with more points than fit into memory is read in blocks. A mesh is not, since only
-// sampled points of its visible triangles are kept.
+// In WebAssembly, a cloud with more points than fit into memory is read in blocks. A mesh is not read in
+// blocks, because only sampled points of its visible triangles are kept.
 TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
   const std::string torus = (folder_ / "torus.ply").string();
   const auto remarks = [&](const std::string& path, double most_points) {

@@ -1,5 +1,5 @@
-// Tests that the studio's picture of a finished piece, such as a coin, shows the content of its file. The
-// picture is compared with one of the exported STL, for which only the triangles are used.
+// Tests that the studio's picture of a finished piece, such as a coin, shows the solid of its file. The
+// reference is drawn from the triangles of the exported STL alone.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 using app::studio::Drawing;
 
-// Returns the model for the options. All methods except the paper's share one model.
+// Returns the model for the options. All methods except the paper's use the same model.
 std::shared_ptr<const ReliefModel> model_for(const ReliefOptions& options) {
   const auto make = [](const View& view) {
     return std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), view));
@@ -51,7 +51,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
   return std::make_shared<const Image<float>>(std::move(image));
 }
 
-// Removes the angles of the camera from a piece, because they are not options. Returns the camera.
+// Removes the camera's angles from a piece, because they are not options. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
   Camera camera;
   camera.yaw_deg = piece.value("yaw", 0.);
@@ -61,8 +61,8 @@ Camera take_camera(nlohmann::json& piece) {
   return camera;
 }
 
-// Removes the base from a piece and returns it. Adds the image of a base of kind image, since the text of a
-// piece cannot contain it.
+// Removes the base from the piece and returns it. A base of kind image gets its image here, because the
+// text of a piece cannot contain an image.
 BaseOptions take_base(nlohmann::json& piece) {
   BaseOptions base = *parse_base(piece.value("base", "plane"));
   if (base.kind == BaseKind::image) base.image = hill_and_hollow();
@@ -70,9 +70,9 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
-// Returns the correlation between the picture's green channel and the cosines of the angles between surface
-// and lamp, over the pixels of the piece. Expects that the picture shows the piece exactly where there are
-// cosines, except at pixels of its outline.
+// Returns the correlation between the picture's green channel and the cosines, over the pixels of the
+// piece. `cosines` are those of the angles between surface and lamp; NaN outside the piece. Expects that
+// the picture shows the piece exactly where there are cosines, except at the pixels of its outline.
 double agreement(const Image8& picture, const Image<double>& cosines) {
   Image<float> drawn = filled_image(picture.width, picture.height, 0.F), expected = drawn;
   PixelMask both;
@@ -106,8 +106,8 @@ void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& dr
     const double right = agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp));
     const Vec3 other = lamp.cwiseProduct(Vec3(-1, 1, 1));
     const double wrong = agreement(shown->picture.image, test::lamp_cosines(file, rays, other));
-    // The library's renderer also adds skylight, and shades large triangles and steep walls smoothly, which
-    // the other renderer does not do.
+    // The correlation is below 1, because the library's renderer also adds skylight, and shades large
+    // triangles and steep walls smoothly.
     EXPECT_GT(right, request.options.form == Form::lithophane ? .55 : .85);
     EXPECT_LT(wrong, right - .2);
   }

@@ -1,4 +1,4 @@
-// Checks a solid in an STL file, and a height map against the solid, without the code that made them:
+// Checks a solid in an STL file, and a height map of the solid, without the code that made both:
 // check_solid SOLID.stl [MAP.png|MAP.tif]. Prints the faults; the exit code is 1 if there are any.
 #include <cstdio>
 #include <fstream>
@@ -37,8 +37,8 @@ Front front_of(const Solid& solid) {
   return front;
 }
 
-// Returns the height of the highest triangle at each pixel's centre; NaN where there is no triangle. Tests
-// all pixels in the bounding box of each triangle.
+// Returns the height of the highest triangle at the centre of each pixel; NaN where there is no triangle.
+// Each triangle is tested at all pixels in its bounding box.
 Image<double> heights_under(const Front& front, int width, int height, double mm_per_pixel) {
   Image<double> heights = filled_image(width, height, std::nan(""));
   const Vec3 middle = front.box.centre();
@@ -66,8 +66,8 @@ Image<double> heights_under(const Front& front, int width, int height, double mm
   return heights;
 }
 
-// Returns a text about the difference between a map and the solid. It is empty if no pixel differs by more
-// than 0.01 mm, and at most a thousandth of the pixels by more than a micrometre.
+// Returns a text about the difference between a map and the solid. The text is empty if no pixel differs
+// by more than 0.01 mm, and at most a thousandth of the pixels by more than 0.001 mm.
 std::string difference(const Solid& solid, const char* path) {
   const std::string file = bytes_of(path);
   const Result<DepthImage> map = read_depth_image(std::as_bytes(std::span(file)), path);

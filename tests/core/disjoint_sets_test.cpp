@@ -19,7 +19,7 @@ TEST(DisjointSets, AreJoinedThroughAnyOfTheirNumbers) {
   sets.join(2, 3);
   sets.join(4, 5);
   sets.join(3, 0);
-  sets.join(1, 2);  // both are already in one set
+  sets.join(1, 2);  // 1 and 2 are already in the same set
   for (const Index i : {1U, 2U, 3U}) EXPECT_EQ(sets.find(i), sets.find(0));
   EXPECT_NE(sets.find(4), sets.find(0));
   EXPECT_EQ(sets.size_of(2), 4U);

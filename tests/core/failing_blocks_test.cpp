@@ -1,5 +1,5 @@
-// Tests parallel calls whose blocks throw, as when memory runs out. Builds without exceptions, such as
-// WebAssembly, omit these tests.
+// Tests parallel calls in which blocks throw exceptions, as they do when memory runs out. Builds
+// without exceptions, such as WebAssembly, omit these tests.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -45,7 +45,7 @@ TEST_P(FailingBlocks, GiveTheCallerTheirException) {
   EXPECT_THROW(parallel_both([] { throw std::bad_alloc(); }, [] {}), std::bad_alloc);
 }
 
-// The lowest failing block waits a while for another block to fail. So a higher block often fails first.
+// The lowest failing block waits a while for another block to fail, so that a higher block often fails first.
 TEST_P(FailingBlocks, GiveTheExceptionOfTheLowestOne) {
   for (std::size_t first = 0; first < 60; ++first) {
     std::atomic<bool> has_other_failed = false;
@@ -71,8 +71,8 @@ TEST_P(FailingBlocks, LeaveOutThoseThatHaveNotBegun) {
   EXPECT_LE(begun, GetParam());
 }
 
-// Each block waits for the previous block. The blocks after a failing block would wait for ever if the
-// failure did not end their waiting.
+// Each block waits for the previous one. So the blocks after a failing block would wait for ever if
+// the failure did not end their waiting.
 TEST_P(FailingBlocks, EndTheWaitOfOthers) {
   for (std::size_t failing = 0; failing < 50; ++failing) {
     BlockFlags done(50);

@@ -16,8 +16,8 @@ struct WrittenNumber {
   double value;
 };
 
-// Returns a random finite double, and its text with `digits` significant digits. A text of 17 digits
-// determines the double exactly.
+// Returns a random finite double, and its text with `digits` significant digits. With 17 digits the
+// text determines the double exactly.
 WrittenNumber random_number(std::mt19937_64& random, int digits) {
   double value = 0;
   do value = std::bit_cast<double>(random());

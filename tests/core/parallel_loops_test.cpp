@@ -12,16 +12,16 @@
 namespace relievo {
 namespace {
 
-// Waits until the flag is set, but at most a minute: if the loops wait for each other, the test fails instead
-// of running for ever.
+// Waits until the flag is set, but at most a minute. So if the loops wait for each other, the test fails
+// instead of running for ever.
 bool is_set_in_time(const std::atomic<bool>& flag) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
   while (!flag && std::chrono::steady_clock::now() < end) std::this_thread::yield();
   return flag;
 }
 
-// The long loop runs until the short one has ended. If the short loop waits for the long one, the long one
-// gives up after a minute.
+// The long loop runs until the short loop has ended. If the short loop waited for the long loop, the long
+// loop would give up after a minute, and the test would fail.
 TEST(ParallelLoops, DoNotWaitForTheEndOfALongOne) {
   set_thread_count(2);
   std::atomic<bool> has_begun = false, may_end = false, has_given_up = false;

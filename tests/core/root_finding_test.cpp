@@ -21,7 +21,7 @@ TEST(FindRoot, FindsRootsNearAndFar) {
   for (const double root : {0.0, .3, -7.0, 120.0, -640.0, 700.0}) {
     const Search s = search([&](double x) { return x - root; });
     EXPECT_NEAR(s.x, root, 1e-5);
-    EXPECT_EQ(s.last, s.x - root);  // the last call was at the result
+    EXPECT_EQ(s.last, s.x - root);  // the last call of the function was at the result
   }
 }
 

@@ -33,7 +33,7 @@ TEST(WithinMemory, IsAnErrorOfTheInnermostCall) {
   EXPECT_EQ(message_of(failed), memory_error({.points = 7}).message());
 }
 
-// The first size is more than std::vector allows. The second is allowed, but no machine has so many bytes.
+// The first size is more than std::vector allows. The second size is allowed, but no machine has so much memory.
 TEST(WithinMemory, AnswersWhatNoMachineHas) {
   for (const std::size_t size : {std::numeric_limits<std::size_t>::max(), std::size_t{1} << 55})
     for (const int threads : {1, 2}) {

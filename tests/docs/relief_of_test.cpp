@@ -13,8 +13,8 @@ relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> sca
 
 namespace {
 
-// Returns the extent along z of a binary STL, which has 84 bytes of header, then 50 bytes per triangle: the
-// normal, then the corners.
+// Returns the extent along z of a binary STL. The file has a header of 84 bytes and then 50 bytes per
+// triangle: first the normal, then the corners.
 float z_extent(std::span<const std::byte> stl) {
   float low = std::numeric_limits<float>::infinity(), high = -low;
   for (std::size_t at = 84; at + 50 <= stl.size(); at += 50)

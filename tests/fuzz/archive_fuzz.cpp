@@ -1,6 +1,6 @@
-// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file, a zero byte,
-// and the buffer of the glTF file; both are put into an archive. Otherwise the rest is itself the archive or
-// project file.
+// Fuzz target of archives and project files. If the first byte is odd, the rest consists of a glTF file, a
+// zero byte, and the buffer of this glTF file; both files are put into an archive. Otherwise the rest is
+// itself an archive or a project file.
 #include <algorithm>
 #include <cstdlib>
 #include <string>

@@ -1,5 +1,5 @@
-// Makes a program of a fuzz target. With clang and -DRELIEVO_FUZZ=ON, libFuzzer drives the target. Otherwise
-// the program runs the target over the files on its command line.
+// Makes a program from a fuzz target. With clang and -DRELIEVO_FUZZ=ON, libFuzzer drives the target.
+// Otherwise the program runs the target over the files on its command line.
 #pragma once
 
 #include <cstddef>

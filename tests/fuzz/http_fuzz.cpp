@@ -1,6 +1,6 @@
-// Fuzz target of the studio's web server. An input is the text that one connection sends; byte 1 stands for
-// the token and byte 2 for the host. No scan is open; request_fuzz.cpp tests requests about an open scan.
-// Every answer must begin like an HTTP answer.
+// Fuzz target of the studio's web server. An input is the text that one connection sends; in this text,
+// byte 1 stands for the token and byte 2 for the host. No scan is open, because request_fuzz.cpp tests
+// requests about an open scan. Every answer must begin like an HTTP answer.
 #include <arpa/inet.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -21,7 +21,7 @@ namespace {
 using namespace relievo;
 using namespace relievo::app::studio;
 
-// A studio that answers requests until the program ends.
+// A studio that answers requests until this program ends.
 struct Studio {
   std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
   DiskStore store{*take_state_folder(::mkdtemp(folder.data()))};
@@ -48,8 +48,8 @@ struct Studio {
     return text;
   }
 
-  // Sends the text on a new connection, and waits until the studio closes it. Returns the first bytes of the
-  // answer.
+  // Sends the text on a new connection, and waits until the studio closes the connection. Returns the first
+  // bytes of the answer.
   std::string answer_to(const std::string& text) const {
     const int connection = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
     sockaddr_in to{};

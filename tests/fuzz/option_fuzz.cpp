@@ -1,5 +1,5 @@
-// Fuzz target of options and projects. A line "name=text" sets an option. All bytes together are also read as
-// a project. An error must say what was expected, and an error about options must name the option.
+// Fuzz target of options and projects. A line "name=text" sets an option. The whole input is also read as a
+// project. An error must say what was expected, and an error about options must name the option.
 #include <cstdlib>
 #include <string>
 

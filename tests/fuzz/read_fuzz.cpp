@@ -1,7 +1,7 @@
-// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses a list of file names.
-// scripts/fuzz finds the same list by the word before the colon in the comment at its end. The first byte of an input
-// chooses one of these names, the rest is the file. In texts of meshes a zero byte ends the file, and the files beside
-// it follow: materials or a buffer up to another zero byte, then a picture.
+// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses one of the lists of file names
+// below. scripts/fuzz finds the list by the word before the colon in the comment at its end. The first byte of an input
+// chooses a name from the list; the rest is the file. In texts of meshes a zero byte ends the file, and the files
+// beside it follow: first materials or a buffer, up to another zero byte, then a picture.
 #include <array>
 #include <cstdlib>
 #include <string>
@@ -30,7 +30,7 @@ constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm",
                               "a.bmp", "a.asc", "a.dat", "a.jpg"};  // picture: pictures
 #endif
 
-// Returns the file with correct checksums, because the reader of E57 rejects all others.
+// Returns the file with correct checksums, because the reader of E57 refuses files with wrong ones.
 std::string with_checksums(std::string file) {
   for (std::size_t page = 0; page + 1024 <= file.size(); page += 1024) {
     const std::uint32_t checksum = bitwise_crc32c(std::string_view(file).substr(page, 1020));
@@ -39,7 +39,7 @@ std::string with_checksums(std::string file) {
   return file;
 }
 
-// Splits off the part of the content before the first zero byte, which is left out.
+// Splits off the part of the content before the first zero byte. The zero byte is removed, too.
 std::string_view next_part(std::string_view& content) {
   const std::size_t end = std::min(content.find('\0'), content.size());
   const std::string_view part = content.substr(0, end);
@@ -47,7 +47,7 @@ std::string_view next_part(std::string_view& content) {
   return part;
 }
 
-// Returns the files beside a text, under any names by which the text refers to them.
+// Returns the files beside a text. Each is given under all names by which the text might refer to it.
 FilesBeside files_beside(std::string_view rest) {
   const std::string_view words = next_part(rest);
   return [words, rest](const std::string& name) -> Result<std::vector<std::byte>> {

@@ -1,5 +1,5 @@
-// Fuzz target of whole reliefs. A small cloud and a few options give an error or a solid, which must be
-// closed and have the requested height. The first bytes are the options, the rest are the points.
+// Fuzz target of whole reliefs. A small cloud and a few options must give an error or a solid; a solid must be closed
+// and have the requested height. The first bytes of an input are the options, the rest are the points.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace relievo;
 
-// Makes a point from every three bytes. The points lie on the lines of a grid, so that most are visible.
+// Makes a point from every three bytes. The points lie on the lines of a grid, so that most of them are visible.
 Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
   Cloud cloud;
   for (std::size_t i = 0; i + 2 < size && cloud.size() < 400; i += 3) {

@@ -1,5 +1,5 @@
-// Fuzz target of the studio's requests without HTTP. The first byte chooses an action, the rest is the body.
-// One document is open, and pictures and exports are small. The page must be able to show every answer.
+// Fuzz target of the studio's requests, without HTTP. The first byte chooses an action; the rest is the body of the
+// request. One document is open, and pictures and exports are small. Every answer must be one that the page can show.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -48,8 +48,8 @@ struct Studio {
   ~Studio() { std::filesystem::remove_all(folder); }
 };
 
-// Makes a request refer to the open document, and reduces its pictures and samples so that they take little
-// time.
+// Changes a request so that it refers to the open document, and reduces its pictures and samples so that
+// they take little time.
 Json small(Json json, const std::string& document) {
   if (json.value("document", Json("")) != Json("x")) json["document"] = document;
   json["width"] = 48;
@@ -73,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                      small(*json, studio.document))
                 : answer_of(json.error());
   } catch (const Json::exception&) {
-    return 0;  // a field has the wrong type, which the server answers with 400
+    return 0;  // a field has the wrong type; the server would answer 400
   }
   constexpr std::array known = {200, 202, 400, 409, 422, 500};
   const bool is_known = std::ranges::find(known, made.status) != known.end();

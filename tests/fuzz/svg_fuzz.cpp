@@ -1,4 +1,4 @@
-// Fuzz target of drawings: SVG files, and the points of walls along small drawings.
+// Fuzz target of drawings. It reads SVG files, and computes the points of walls along small drawings.
 #include <cstdlib>
 
 #include "fuzz/fuzz_program.h"

@@ -22,7 +22,7 @@ TEST(Weld, FindsTheFirstOfCoincidentPoints) {
   EXPECT_TRUE(first_coincident({}).empty());
 }
 
-// Returns random points of a coarse lattice. Many coincide, and zero coordinates may be 0 or -0.
+// Returns random points of a coarse lattice. Many of them coincide, and coordinates that are zero may be 0 or -0.
 std::vector<Vec3> lattice_points(std::size_t n) {
   std::mt19937 random(5);
   std::vector<Vec3> points(n);
@@ -69,8 +69,8 @@ TEST(SpaceCurve, DoesNotDependOnTheOrderGiven) {
   EXPECT_NE(points, once);
 }
 
-// Consecutive points on the curve are less than 0.2 apart on average. In random order this would be 4/3, the
-// mean distance of two points on a unit sphere.
+// Consecutive points on the curve must be less than 0.2 apart on average. In random order the average would
+// be 4/3, the mean distance of two points on a unit sphere.
 TEST(SpaceCurve, KeepsNeighboursTogether) {
   const std::vector<Vec3> points = ordered(test::sphere(4000, 1).points);
   double sum = 0;

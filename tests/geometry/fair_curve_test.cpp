@@ -21,8 +21,8 @@ std::vector<CurveNode> circle_nodes(int count, double radius, double noise) {
   return nodes;
 }
 
-// Returns nodes along the sides of a square of side 2 * half, with noise across the sides. They start at the
-// lower left corner and run counter-clockwise.
+// Returns nodes along the sides of a square of side 2 * half, with noise across the sides. The nodes start
+// at the lower left corner and run counter-clockwise.
 std::vector<CurveNode> square_nodes(int per_side, double half, double noise) {
   test::Random random(9);
   const std::array<Vec2, 4> corners{Vec2(-half, -half), Vec2(half, -half), Vec2(half, half),
@@ -69,8 +69,8 @@ TEST(FairCurve, KeepsTheCornersOfASquare) {
   EXPECT_EQ(corners, 4);
 }
 
-// Returns nodes along a wedge that opens towards -x. Its tip is an arc of that radius around the origin, and
-// its sides are 20 long. The nodes start at the end of the lower side.
+// Returns nodes along a wedge that opens towards -x. Its tip is an arc of the given radius around the
+// origin, and its sides are 20 long. The nodes start at the end of the lower side.
 std::vector<CurveNode> wedge_nodes(double degrees, double radius) {
   constexpr double side = 20, pi = std::numbers::pi;
   const double turn = pi - degrees * pi / 180, arc = turn * radius;
@@ -83,7 +83,8 @@ std::vector<CurveNode> wedge_nodes(double degrees, double radius) {
   return nodes;
 }
 
-// The lines of the wedge's sides meet at x = radius / sin(angle / 2), far outside the arc.
+// If the curve followed the lines of the wedge's sides, it would have a barb where they meet: at x
+// = radius / sin(angle / 2), far outside the arc.
 TEST(FairCurve, OfARoundTipHasNoBarb) {
   constexpr double radius = 3;
   for (const double degrees : {50., 70., 90.}) {
@@ -129,7 +130,7 @@ TEST(FairCurve, IsEmptyIfTooShort) {
 }
 
 TEST(FairCurve, StaysNearItsNodesWhateverTheyAre) {
-  // The nodes are few and turn sharply, so there may be no node between two corners.
+  // The nodes are so few and turn so sharply that there may be no node between two corners.
   test::Random random(5);
   const Vec2 start(100, 200);
   for (int trial = 0; trial < 2000; ++trial) {

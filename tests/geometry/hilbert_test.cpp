@@ -39,7 +39,7 @@ TEST(HilbertOrder, KeepsEqualPointsByNumber) {
   EXPECT_TRUE(std::is_sorted(order.begin(), order.end()));
 }
 
-// If a single distant point put all others into one cell, it would change their order.
+// A single distant point must not change the order of the others, as it would if all others fell into one cell.
 TEST(HilbertOrder, ResolvesClusters) {
   std::vector<Vec2> points;
   for (int i = 0; i < 1024; ++i) points.emplace_back(i * 37 % 32, i / 32);

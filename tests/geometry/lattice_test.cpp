@@ -12,7 +12,7 @@ namespace {
 
 constexpr double cell = .1;
 
-// Random points in a square of side 2, and a lattice that counts two of every three points.
+// Random points in a square of side 2, and a lattice over them. Two of every three points count for the lattice.
 struct Scattered {
   std::vector<Vec3> points = test::sheet(3000, 1, 0).points;
   std::vector<Index> counted = two_of_three(points.size());
@@ -58,8 +58,8 @@ TEST(Lattice, IsLinearBetweenItsNodes) {
   }
 }
 
-// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() are never below
-// this parabola, and at most 1/64 above it.
+// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() must not be
+// below this parabola, and at most 1/64 above it.
 TEST(Lattice, IsSmoothBetweenItsNodes) {
   const Scattered s;
   const auto squares = s.refined([&](std::size_t n) {
@@ -73,7 +73,7 @@ TEST(Lattice, IsSmoothBetweenItsNodes) {
   }
 }
 
-// The expected values follow the definition: the mean of a node is computed from all counted points.
+// The expected values follow the definition of the mean: each node is computed from all counted points.
 TEST(Lattice, GathersMeansBySquaredWeights) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());
@@ -129,8 +129,8 @@ TEST(Lattice, FindsWhatValuesDoBetweenNodes) {
   }
 }
 
-// A node inside the lattice is a corner of four cells: the first corner of one cell, the second corner of
-// another, and so on.
+// A node inside the lattice is a corner of four cells. It is the first corner of one of them, the second
+// corner of another, and so on.
 TEST(Lattice, KnowsTheCellsAroundANode) {
   const Scattered s;
   const std::size_t w = s.lattice.width(), node = 3 * w + 5;
@@ -156,8 +156,8 @@ TEST(Lattice, FindsTheNodesAroundAPoint) {
   }
 }
 
-// The expected nodes are those inside the triangle. place() gives the triangle's corners in units of cells;
-// in these units, a node's coordinates are its column and row.
+// The expected nodes are those inside the triangle. place() gives the triangle's corners in units of cells.
+// In these units, the coordinates of a node are its column and its row.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;
   for (Index first = 0; first + 2 < 300; first += 3) {
@@ -178,8 +178,8 @@ TEST(Lattice, FindsTheNodesInATriangle) {
   }
 }
 
-// Cubic B-splines add up to 1 and reproduce linear functions. So the spread amounts add up to the given
-// amount, and their centroid is the given position.
+// Cubic B-splines add up to 1 and reproduce linear functions. So the amounts at the nodes add up to the
+// given amount, and their centroid is the given position.
 TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
   const Scattered s;
   for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {

@@ -18,8 +18,8 @@ TEST(PlaneOrder, ScalesIntoTheUnitSquare) {
   EXPECT_TRUE(in_unit_square({}).empty());
 }
 
-// The order visits the four quarters of the square one after the other, and the quarters of each quarter in
-// the same way.
+// The order visits the four quarters of the square one after the other. Within each quarter it visits the
+// four quarters of that quarter in the same way.
 TEST(PlaneOrder, PassesQuartersOneByOne) {
   std::vector<Eigen::Vector2f> points;
   for (int y = 0; y < 8; ++y)

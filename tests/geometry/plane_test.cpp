@@ -11,7 +11,7 @@ TEST(Plane, CrossProductIsPositiveToTheLeft) {
   EXPECT_EQ(cross({1, 3}, {2, 6}), 0);
 }
 
-// The hypotenuse of a right-angled triangle is the diameter of its circumcircle.
+// The hypotenuse of a right-angled triangle is the diameter of the triangle's circumcircle.
 TEST(Plane, CircumradiusOfARightAngleIsHalfTheHypotenuse) {
   EXPECT_DOUBLE_EQ(circumradius({0, 0}, {3, 0}, {0, 4}), 2.5);
   EXPECT_DOUBLE_EQ(circumradius({0, 4}, {3, 0}, {0, 0}), 2.5);

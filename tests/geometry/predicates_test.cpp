@@ -25,7 +25,7 @@ Integer orientation(Integer ax, Integer ay, Integer bx, Integer by) {
   return ax * by - ay * bx;
 }
 
-// Computes the determinant in the number type that `integer` returns.
+// Computes the determinant in the number type to which `integer` converts coordinates.
 template <typename F>
 auto orient2d_oracle(const Vec2& a, const Vec2& b, const Vec2& c, F integer) {
   const auto cx = integer(c.x()), cy = integer(c.y());
@@ -56,7 +56,7 @@ int exact_incircle(const Quad& q) {
   return incircle_oracle(q, BigInteger::scaled).sign();
 }
 
-// Returns the sign as computed in plain doubles. Its errors prove that a test contains hard cases.
+// Returns the sign as computed in plain doubles. If it is sometimes wrong, the test contains hard cases.
 int naive_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return sign(orient2d_oracle(a, b, c, [](double x) { return x; }));
 }
@@ -107,8 +107,8 @@ TEST(Orient2d, IsRightOnTheClassroomExamples) {
   }
 }
 
-// Four points on a unit circle are moved by a common offset and rounded. The last one is also moved by -2 to
-// 2 times 2^-53.
+// Four random points of a unit circle are moved by a common offset and rounded. The last one is also moved
+// by -2 to 2 times 2^-53.
 TEST(Incircle, IsRightNearTheCircle) {
   std::mt19937_64 random(1);
   int naive_errors = 0;
@@ -146,7 +146,7 @@ TEST(Incircle, KnowsRectangles) {
   }
 }
 
-// The coordinates in a determinant may have any magnitudes in the range that the header allows.
+// The coordinates in a determinant have any magnitudes in the range that the header allows.
 TEST(Predicates, AreExactToTheEndsOfTheRange) {
   std::mt19937_64 random(3);
   const double ends[] = {0, 1e-60, -1e-60, 1e70, -1e70, 1 + 0x1p-52, 1e-20, -0x1.fffffffffffffp-150, 3e40};

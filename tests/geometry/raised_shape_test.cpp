@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// An L with arms of width 2 and 0.5, and with a hole in the wide arm.
+// Returns the outlines of an L with arms of width 2 and 0.5. The wide arm has a hole.
 Outlines ell() {
   return {{{0, 0}, {6, 0}, {6, .5}, {2, .5}, {2, 5}, {0, 5}}, {{.8, 3}, {.8, 3.6}, {1.4, 3.6}, {1.4, 3}}};
 }

@@ -10,9 +10,9 @@
 namespace relievo {
 namespace {
 
-// A rectangle that covers the whole picture, divided into `cells` x `cells` quadrangles with jittered
-// corners, each of two triangles. The coordinates of corners are rounded to multiples of `round`. With 0.5,
-// pixel centres lie on edges and corners.
+// A rectangle that covers the whole picture. It is divided into `cells` x `cells` quadrangles with jittered
+// corners, each of two triangles. The coordinates of corners are rounded to multiples of `round`. If
+// `round` is 0.5, centres of pixels lie on edges and corners.
 struct Sheet {
   std::vector<Triangle> triangles;
   RasterInput scene;
@@ -79,8 +79,8 @@ TEST(Rasterizer, FindsTheTriangleThatHoldsTheCentre) {
       const auto& [a, b, c] = sheet.triangles[fragment.triangle];
       const auto& points = sheet.scene.points;
       const Vec3 place = weights[0] * points[a] + weights[1] * points[b] + weights[2] * points[c];
-      // The rasterizer rounds corners to 1/256 pixel. No triangle is thinner than a pixel, so this moves
-      // positions by less than 0.01.
+      // The rasterizer rounds corners to 1/256 pixel. No triangle is thinner than a pixel, so this
+      // rounding moves positions by less than 0.01.
       EXPECT_LT((place.head<2>() - Vec2(x + .5, y + .5)).norm(), 0.01);
       EXPECT_NEAR(fragment.z, place.z(), 0.01);
     }
@@ -115,7 +115,7 @@ TEST(Rasterizer, TheNearestIsSeenAndBackFacesAreNot) {
   const std::vector<Fragment> fragments = draw_all(scene, 6);
   EXPECT_EQ(fragments[0].triangle, 1U);             // nearer than triangle 0
   EXPECT_EQ(fragments[12].triangle, 0U);            // as near as triangle 2, but first in order
-  EXPECT_EQ(fragments[19 * 20 + 19].triangle, 3U);  // triangle 4 also covers it, but faces away
+  EXPECT_EQ(fragments[19 * 20 + 19].triangle, 3U);  // triangle 4 covers this pixel, too, but faces away
 }
 
 TEST(Rasterizer, ASliverDoesNotSpike) {
@@ -141,7 +141,7 @@ TEST(CornerWeights, ReproduceThePlaceAndStayPositiveOutside) {
   EXPECT_NEAR(corner_weights(scene, 1, 3, 3).sum(), 1, 1e-6);  // a triangle without area
 }
 
-// Computes blur() by the definition in image_filters.h.
+// Computes blur() directly by its definition in image_filters.h.
 std::vector<float> slow_blur(std::vector<float> values, int width, int radius) {
   const int height = static_cast<int>(values.size()) / width;
   const auto at = [&](const std::vector<float>& v, int x, int y) {

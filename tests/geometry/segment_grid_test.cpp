@@ -64,7 +64,7 @@ TEST(SegmentGrid, CrossingsAgreeWithBruteForce) {
 }
 
 TEST(SegmentGrid, KnowsTheSideAlsoBesideCorners) {
-  std::vector<Segment> star;  // a closed curve with acute corners; its inside is on the left
+  std::vector<Segment> star;  // a closed curve with acute corners; its inside is on its left
   const auto at = [](int i) {
     const double angle = std::numbers::pi * i / 5;
     return Vec2((i % 2 ? .3 : 1) * Vec2(std::cos(angle), std::sin(angle)));
@@ -73,7 +73,7 @@ TEST(SegmentGrid, KnowsTheSideAlsoBesideCorners) {
   const SegmentGrid grid(star, .1);
   for (const Vec2& unit : random_points(2000, 9)) {
     const Vec2 p = 2.4 * (unit - Vec2(.5, .5));
-    bool is_inside = false;  // true if a ray to the right crosses the curve an odd number of times
+    bool is_inside = false;  // whether a ray to the right crosses the curve an odd number of times
     for (const Segment& s : star) {
       if ((s.from.y() > p.y()) == (s.to.y() > p.y())) continue;
       is_inside ^=

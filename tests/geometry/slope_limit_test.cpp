@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Two triangles that share a short edge. The points are first the two ends of the edge, then the far corner
-// of each triangle.
+// Two thin triangles (needles) that share a short edge. The points are first the two ends of the edge, then
+// the far corner of each triangle.
 struct Needles {
   std::array<Vec3, 4> points;
   std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
@@ -40,16 +40,15 @@ double rise_of(const Needles& needles) {
 }
 
 Needles stored(Needles needles) {
-  // The floats are first stored in an array, because g++ 12 drops the rounding of double(float(x)) when it
-  // vectorises.
+  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
   std::vector<Vec3f> points;
   for (const Vec3& p : needles.points) points.push_back(p.cast<float>());
   for (std::size_t i = 0; i < 4; ++i) needles.points[i] = points[i].cast<double>();
   return needles;
 }
 
-// The needles after limit_slopes(), and the largest distance that a point moved; infinity if a needle is
-// still too steep.
+// The needles after limit_slopes(), and the largest distance by which a point moved. The distance is
+// infinity if a needle is still too steep.
 struct Flattened {
   Needles needles;
   double largest_move = std::numeric_limits<double>::infinity();
@@ -72,7 +71,7 @@ Flattened flattened(const Needles& given, Rounding rounding) {
 }
 
 // To flatten these needles, the far corner must move several times by less than half a unit of single
-// precision. Rounding must not undo each of these moves.
+// precision. The moves must add up, although rounding would undo each of them alone.
 TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   const Needles needles = stored({{Vec3(20.0135155, 20.0189285, 3.00464439),
                                    {20.0135326, 20.0189762, 3.00460148},
@@ -86,7 +85,7 @@ TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
 }
 
 // A small move flattens one needle but makes the other one steep. Both become flat only if the far corners
-// move hundreds of times as far.
+// move hundreds of times as far as that.
 TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   const Needles needles = stored({{Vec3(20.0088615, 20.0504284, 3.0039897),
                                    {20.0088387, 20.0504589, 3.0040071},
@@ -100,9 +99,8 @@ TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   }
 }
 
-// Returns two needles that share a short edge, with slopes up to `most` before rounding. The edge is 20 to
-// 200 times as long as the local spacing of single-precision numbers, and the needles are 10 to 100 times as
-// long as the edge.
+// Returns two needles that share a short edge, with slopes up to `most` before rounding. The edge is 20 to 200 times as
+// long as the spacing of single-precision numbers there. The needles are 10 to 100 times as long as the edge.
 Needles random_needles(test::Random& random, double most) {
   const double edge = std::exp(random.uniform(std::log(4e-5), std::log(4e-4))),
                turn = random.uniform(0, 2 * std::numbers::pi);

@@ -58,8 +58,8 @@ TEST(SmoothSurface, ReproducesQuadratics) {
     }
 }
 
-// The points stand in rows, as along outlines, and the surface bends by 21 degrees at one row. Along the rows
-// its slope must be constant, as otherwise every triangle would be visible as a bead.
+// The points stand in rows, as they do along outlines, and the surface bends by 21 degrees at one row. The
+// slope along the rows must be constant, because otherwise every triangle would be visible as a bead.
 TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
   const double bend = .45;
   std::vector<Vec3> points;
@@ -131,7 +131,8 @@ TEST(SmoothSurface, LeavesOtherTrianglesPlane) {
   }
 }
 
-// A step joins two level halves; its triangles are not marked as smooth. Both halves must stay exactly level.
+// A step joins two level halves. The triangles of the step are not marked as smooth. Both halves must stay
+// exactly level.
 TEST(SmoothSurface, DoesNotSwingBesideAWall) {
   const Field field(3000, [](const Vec2& p) { return p.x() < .5 ? 0. : 1.; });
   std::vector<std::uint8_t> smooth = field.all_smooth();

@@ -55,15 +55,15 @@ double wavy(double x, double y) {
   return std::sin(3 * x) * std::cos(4 * y) + x;
 }
 
-// Computes a B-spline by the recursion of Cox and de Boor for uniform knots 0, 1, 2, ... The cubic B-spline
-// is positive in (0, 4).
+// Computes a uniform B-spline by the recursion of Cox and de Boor, with the knots 0, 1, 2, ... The cubic
+// B-spline is positive in (0, 4).
 double b_spline(int degree, double t) {
   if (degree == 0) return t >= 0 && t < 1 ? 1 : 0;
   return t / degree * b_spline(degree - 1, t) + (degree + 1 - t) / degree * b_spline(degree - 1, t - 1);
 }
 
-// The lattice of one level, as in textbooks. The B-spline of node (i, j) covers 4 x 4 cells, of which the
-// first is in column i - 3 and row j - 3 of the domain.
+// The lattice of one level of a multilevel B-spline. The B-spline of node (i, j) covers 4 x 4 cells. The
+// first of them is in column i - 3 and row j - 3 of the domain.
 struct Lattice {
   std::size_t columns, rows;
   double cell;
@@ -229,8 +229,8 @@ TEST(Spline, TellsWhatTheFitLeaves) {
   EXPECT_LT(largest_difference(sum, values), 3e-4);
 }
 
-// A spline that is fitted only on its three coarsest levels is the same function on a lattice of six levels
-// as on a lattice of three.
+// A spline on a lattice of six levels, of which only the three coarsest are fitted, is the same function as
+// a spline with three levels.
 TEST(Spline, IsTheSameOnAFinerLattice) {
   const std::vector<Vec2> sites = scattered(200), places = scattered(300, 2);
   const std::vector<float> values = values_of(sites, wavy);

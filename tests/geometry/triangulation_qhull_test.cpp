@@ -1,5 +1,5 @@
-// Compares triangulations with those of Qhull, which computes in plain doubles. For points that are far from
-// degenerate, both must be equal.
+// Compares triangulations with those of Qhull, which computes in plain doubles. The points are far from
+// degenerate, so both must be equal.
 #ifdef RELIEVO_HAS_QHULL
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ namespace {
 
 using Points = std::vector<Vec2>;
 
-// Returns the triangles sorted, each beginning with its lowest corner.
+// Returns the triangles in sorted order, each beginning with its lowest corner.
 std::set<Triangle> sorted_triangles(const Triangulation& triangulation) {
   std::set<Triangle> triangles;
   for (Triangle t : triangulation.triangles) {
@@ -30,7 +30,7 @@ void expect_correct(const Points& points) {
   EXPECT_EQ(delaunay_fault(points, delaunay(points)), "");
 }
 
-// Returns twice the signed area; exact for integers below 2^12.
+// Returns twice the signed area. The result is exact for integers below 2^12.
 double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
@@ -78,7 +78,7 @@ Points few_integer_points(int most, int limit) {
 }
 
 // All other tests rely on delaunay_fault(), so it must find every fault. Points in general position have only
-// one Delaunay triangulation, so changing any number in it is a fault.
+// one Delaunay triangulation. So changing any number of this triangulation is a fault.
 TEST(DelaunayCheck, RejectsAnyChangedNumber) {
   const Points points = random_points(60);
   const Triangulation right = delaunay(points);
@@ -116,8 +116,8 @@ TEST(DelaunayCheck, RejectsWhatFailsOneCheckAlone) {
   EXPECT_EQ(delaunay_fault(kite, twin), "points");
   EXPECT_EQ(delaunay_fault(Points{{-5, 0}, {0, 1}, {5, 0}, {0, 9}}, good), "turns") << "a notch at point 1";
 
-  // Five triangles around a centre, with an angle of 144 degrees each. Their only fault is that their border
-  // goes around the centre twice.
+  // Five triangles with an angle of 144 degrees each stand around a centre. Their only fault is that their
+  // border goes around the centre twice.
   Points star = circle_points(5);
   star.emplace_back(0, 0);
   Triangulation t;
@@ -286,8 +286,8 @@ TEST(Delaunay, DoesNotDependOnExactMovesAndScales) {
   EXPECT_EQ(triangles_of([](const Vec2& p) { return Vec2(-p.y(), p.x()); }), expected);
 }
 
-// Either diagonal of four points on a circle is allowed. The choice, drawn for the cells of a grid, must be
-// the same on every machine. If the order of insertion changes, the picture may change.
+// Either diagonal of four points on a circle is Delaunay. The choice must be the same on every machine;
+// `picture` shows it for the cells of a grid. If the order of insertion changes, the picture may change.
 TEST(Delaunay, ChoosesTheSameDiagonalsEverywhere) {
   const int side = 6;
   const Points points = grid_points(side, side);

@@ -48,8 +48,8 @@ TEST(Pcd, LinesOfOtherProgramsInTheHeaderAreIgnored) {
   EXPECT_EQ(file.cloud.points, file_of(ascii_pcd(), "a.pcd").cloud.points);
 }
 
-// The cloud is the depth image of a camera at the origin, row by row. It shows a plane with ripples of up to
-// 0.03 pixels.
+// The cloud is the depth image of a camera at the origin, row by row. It shows a plane whose depths are off
+// by up to 0.03 pixels.
 TEST(Pcd, OrganisedCloudsAreSmoothedAndHaveNormals) {
   constexpr int columns = 24, rows = 18;
   std::string points;
@@ -155,8 +155,8 @@ TEST(Las, ColoursOfEightBitsStay) {
   EXPECT_EQ(read(file, "scan")->cloud.colours, (std::vector<Colour>{{200, 0, 0}, {0, 0, 255}}));
 }
 
-// Up to format 5, one byte has five bits for the class and one bit for withheld points. Later formats have
-// two bytes.
+// Up to point format 5, one byte contains five bits for the class and one bit that marks withheld points.
+// Later formats use two bytes.
 TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
   const std::size_t old_record = 227 + 15, new_record = 375 + 15;
   const std::vector<std::string> files = {
@@ -175,7 +175,8 @@ TEST(Las, NoiseAndWithheldPointsAreLeftOut) {
     EXPECT_EQ(whole.cloud.points, file_of(las(), "a.las").cloud.points);
     EXPECT_TRUE(whole.remarks.empty());
   }
-  // Flags of other kinds change nothing. Neither do classes of 32 and more whose low bits look like noise.
+  // Flags of other kinds change nothing. Classes of 32 and more change nothing either, even if their low
+  // bits look like those of noise.
   for (const std::string& text :
        {patched(las(), old_record, std::uint8_t{0x62}), patched(las(4), new_record, std::uint8_t{0xCB}),
         patched(las(4), new_record + 1, std::uint8_t{39})}) {

@@ -1,6 +1,6 @@
-// Reads files from the test suites of other projects. Their licences do not allow them to be part of this
-// project. Every result must pass check_answer(), and agree with the verdicts in the files' names and with
-// the reports of validators.
+// Reads files from the test suites of other projects. The files are not part of this project, because
+// their licences do not allow it. Every result must pass check_answer(), and agree with the verdicts in
+// the files' names and with the reports of validators.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ class Corpus : public testing::Test {
   const fs::path folder_ = test::shared_data() / "../corpus";
 };
 
-// Prints the number of files of each format that are read and refused.
+// Prints, for each format, how many files are read and how many are refused.
 TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
   for (const std::string& ending : readable_endings()) {
     std::size_t read = 0, refused = 0;
@@ -81,15 +81,14 @@ TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
   }
 }
 
-// Returns the number of points in the file, including those that were left out because coordinates or normals
-// were missing.
+// Returns the number of all points in the file. Points that were left out because coordinates or normals were
+// missing count, too.
 std::size_t all_points(const CloudFile& file) {
   return file.cloud.size() + file.dropped_points + file.left_out_points + file.unmeasured_points +
          (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 
-// Returns the number after `beginning` in the first line that begins with it; nothing if there is no such
-// line.
+// Returns the number after `beginning` in the first line that begins with it; nothing if no line does.
 std::optional<std::size_t> number_after(const std::string& text, const std::string& beginning) {
   const std::size_t found = text.find("\n" + beginning);
   if (found == std::string::npos) return std::nullopt;
@@ -134,7 +133,7 @@ TEST_F(Corpus, BrokenStlIsRefused) {
   }
 }
 
-// The values of these pictures count up, and restart at 0 after the largest value.
+// The values of these pictures count up pixel by pixel, and restart at 0 after the largest value.
 TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
   std::size_t judged = 0;
   for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
@@ -195,7 +194,7 @@ std::vector<JudgedGltf> judged_gltf(const std::vector<fs::path>& reports) {
   return all;
 }
 
-// Files for which a test need not hold, given by the ends of their names, and the reason.
+// Files for which a test need not hold, and the reason. The files are given by the ends of their names.
 struct Exceptions {
   const char* reason;
   std::vector<std::string> names;
@@ -262,7 +261,7 @@ TEST_F(Corpus, BrokenGltfOfTheValidatorIsRefused) {
           << end << " is no exception any more";
 }
 
-// PngSuite gives corrupt pictures names that begin with x.
+// In PngSuite, the names of corrupt pictures begin with x.
 TEST_F(Corpus, BrokenPngIsRefused) {
   for (const fs::path& path : files("nothings+stb", ".png"))
     EXPECT_FALSE(path.filename().string().starts_with("x") && depths_at(path)) << path;
@@ -286,7 +285,8 @@ TEST_F(Corpus, BrokenPlyIsRefused) {
     EXPECT_FALSE(path.string().contains("_err_") && read_at(path)) << path;
 }
 
-// libE57Format and its reference implementation wrote these scans of one model, with integers of many widths.
+// libE57Format and the reference implementation of E57 wrote these scans of one model. The scans differ in
+// the widths of their integers.
 TEST_F(Corpus, OneModelHasTheSamePointsInE57OfEveryNumber) {
   const fs::path rust = folder_ / "cry-inc+e57/testdata";
   const auto finest = read_at(rust / "bunnyDouble.e57");
@@ -327,8 +327,8 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
   EXPECT_FALSE(read_at(folder_ / "cry-inc+e57/testdata/corrupt_crc.e57"));
 }
 
-// The files have point formats 4 to 10, with extra bytes and wave packets. Some have points from several
-// scanners.
+// The files have point formats 4 to 10, with extra bytes and wave packets. Some files have points from
+// several scanners.
 TEST_F(Corpus, LazHasThePointsOfItsLas) {
   std::size_t compared = 0;
   for (const fs::path& path : files("visgl+loaders.gl", ".laz")) {
@@ -356,8 +356,8 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   }
 }
 
-// The files contain the same picture with values of many widths. Divided by the largest value of each width,
-// the pictures are equal up to rounding.
+// All files contain the same picture, in values of different widths. After division by the largest value of
+// the width, the pictures are equal up to rounding.
 TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
   const fs::path depth = folder_ / "image-rs+image-tiff/tests/libtiffpic/depth";
   const auto finest = depths_at(depth / "flower-minisblack-16.tif");
@@ -366,7 +366,7 @@ TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
     const auto image = depths_at(depth / cat("flower-minisblack-", bits < 10 ? "0" : "", bits, ".tif"));
     if (!image) continue;  // not every width is in the corpus
     ASSERT_EQ(image->values.size(), finest->values.size());
-    // Pictures of more than 16 bits were made from 8 bits, so their values are as coarse as those.
+    // Pictures of more than 16 bits were made from pictures of 8 bits, so their values are as coarse as 8 bits.
     const double most = std::exp2(bits) - 1, coarsest = bits > 16 ? 1 / 255. : 1 / most;
     for (std::size_t i = 0; i < image->values.size(); ++i)
       ASSERT_NEAR(static_cast<double>(image->values[i]) / most,

@@ -14,8 +14,8 @@
 #include "support/read_text.h"
 #include "support/results.h"
 
-// The size in bytes of the largest allocation. The malloc() below replaces that of the system in the test
-// program and its libraries. Sanitizers have their own malloc(), so nothing is measured with them.
+// The size in bytes of the largest allocation. The malloc() below measures it: it replaces the system's malloc() in the
+// test program and its libraries. Sanitizers have their own malloc(), so nothing is measured in their builds.
 static std::atomic<std::size_t> largest_allocation = 0;
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -82,7 +82,7 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
     EXPECT_TRUE(i < 8 ? std::isnan(image.values[i]) : image.values[i] == 10 * static_cast<float>(i)) << i;
 }
 
-// The chunk consists of its length 2, its name, the grey 3001 and its checksum.
+// The chunk consists of its length, 2, its name, the grey value 3001, which is transparent, and its checksum.
 TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
   std::string file = as_string(write_png(grey16()));
   const std::string chunk("\0\0\0\2tRNS\x0B\xB9\x27\xDA\x1F\xDB", 14);
@@ -116,8 +116,8 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
             "d: expected at least 4 x 4 pixels, found 3 x 4");
 }
 
-// Returns a PNG chunk that states the given length, which may be wrong. Its checksum is wrong, too, but is
-// not read if the chunk is skipped.
+// Returns a PNG chunk that states the given length, which may be wrong. Its checksum is wrong, too. That
+// does not matter if the reader skips the chunk, because it then does not read the checksum.
 std::string png_chunk(const std::string& type, std::uint32_t length, const std::string& data) {
   std::string chunk;
   for (int shift = 24; shift >= 0; shift -= 8) chunk += static_cast<char>(length >> shift);

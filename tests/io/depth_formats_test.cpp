@@ -1,4 +1,4 @@
-// Tests uncompressed pictures: NumPy arrays, portable pixmaps (PNM) and BMP.
+// Tests pictures in uncompressed formats: NumPy arrays, portable pixmaps (PNM) and BMP.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int columns = 6, rows = 5;
 
-// Returns the bytes of all values. value(column, row) returns the bytes of one value.
+// Returns the bytes of all values. value(column, row) returns the bytes of a single value.
 template <typename F>
 std::string values(F value, bool is_by_columns = false) {
   std::string data;
@@ -92,7 +92,7 @@ TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
             "d: expected at most 134217728 pixels, found 100000 x 100000");
 }
 
-// The rows of a PFM start at the bottom. The sign of its last number is the byte order.
+// The rows of a PFM start at the bottom. The sign of the last number of its header gives the byte order.
 TEST(DepthPnm, ReadsFractionsFromBelow) {
   const auto from_below = [](int c, int r) { return raw(static_cast<float>(number(c, rows - 1 - r))); };
   expect_numbers(image_in("Pf\n6 5\n-1.0\n" + values(from_below)), 0);
@@ -144,7 +144,7 @@ TEST(DepthPnm, SaysWhatIsWrong) {
   EXPECT_FALSE(is_picture(bytes_of("P2 10 20 30\nP3 40 50 60\n"))) << "a cloud of named points";
 }
 
-// Returns a BMP with this number of bits per pixel. The bytes of a row must be a multiple of 4.
+// Returns a BMP with the given number of bits per pixel. The number of bytes in a row must be a multiple of 4.
 std::string bmp(int bits, std::int32_t height, const std::string& palette, const std::string& data,
                 std::uint32_t compression = 0) {
   const std::uint32_t pixels = 14 + 40 + static_cast<std::uint32_t>(palette.size());

@@ -1,4 +1,4 @@
-// Tests JPEG pictures, also as textures.
+// Tests JPEG pictures, as depth images and as textures.
 #include <gtest/gtest.h>
 
 #include "io/pictures/jpeg_header.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int squares_across = 3, squares_down = 2;
 
-// Returns different levels, among them the smallest and the largest.
+// Returns levels that differ from square to square. They include the smallest and the largest level.
 int level(int column, int row) {
   return 51 * (column + squares_across * row);
 }
@@ -26,7 +26,7 @@ JpegSquares grey_squares() {
   return picture;
 }
 
-// Returns a grey picture in three channels, as many programs write it.
+// Returns a grey picture in three equal channels, which many programs write instead of a grey one.
 JpegSquares grey_colours() {
   JpegSquares picture = grey_squares();
   picture.channels = 3;
@@ -86,7 +86,7 @@ TEST(DepthJpeg, MayBeProgressive) {
   expect_levels(image_of(picture));
 }
 
-// The expected values follow the formulas of JFIF, rounded to integers as libjpeg does.
+// The expected values follow the formulas of JFIF, with results rounded to integers as libjpeg does.
 TEST(DepthJpeg, ColoursAreChannelsOrLuminance) {
   const int y = 100, blue = 40, red = -30;
   const std::string file = jpeg_of(one_colour(y - 128, blue, red));
@@ -158,7 +158,7 @@ TEST(DepthJpeg, AnyDamagedByteGivesAnAnswer) {
     }
 }
 
-// Decoding each scan takes as much time as decoding a whole picture.
+// A picture may be divided into several scans. Decoding each of them takes as much time as decoding a whole picture.
 TEST(DepthJpeg, HasAHundredScansAtMost) {
   JpegSquares picture = grey_squares();
   picture.is_progressive = true;

@@ -1,4 +1,4 @@
-// Tests TIFF pictures with every type of number, as cameras, terrain models and microscopes write them.
+// Tests TIFF pictures with numbers of every type that cameras, terrain models and microscopes write.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -22,7 +22,7 @@ Result<DepthImage> read_tiff(const TiffTags& tags, const std::string& pixels,
   return read_depth_image(bytes_of(tiff_of(tags, pixels)), "d.tif", channels);
 }
 
-// Returns the file with this value in each of the given fields, which are counted from 0.
+// Returns the file with `value` in each of the given fields. The fields are counted from 0.
 std::string with_field(std::string file, std::initializer_list<std::size_t> fields, std::uint32_t value) {
   for (const std::size_t i : fields) file = patched(file, 10 + 12 * i + 8, value);
   return file;
@@ -64,7 +64,7 @@ TEST(DepthTiff, ReadsFractions) {
   expect_values({64, 3}, pixels_of([](int i) { return 1 / (1. + i); }), [](int i) { return 1 / (1. + i); });
   expect_values({32, 3}, pixels_of([](int i) { return .25F * static_cast<float>(i); }),
                 [](int i) { return .25 * i; });
-  // Half-precision numbers have 10 bits of fraction, and the exponent 15 means 2^0.
+  // Half-precision numbers have 10 bits of fraction. The stored exponent 15 means 2^0.
   expect_values({16, 3}, pixels_of([](int i) { return static_cast<std::uint16_t>(i << 10 | 512); }),
                 [](int i) { return i == 0 ? std::ldexp(512, -24) : std::ldexp(1.5, i - 15); });
   const auto special = read_tiff({16, 3}, pixels_of([](int i) {
@@ -79,7 +79,7 @@ TEST(DepthTiff, ReadsFractions) {
   EXPECT_EQ(special->values[4], -2);
 }
 
-// Terrain models store the lowest floating-point number where the height is unknown. Not all of them have a
+// Terrain models store the lowest floating-point number where the height is unknown. Some of them have no
 // tag that says so.
 TEST(DepthTiff, TakesTheLowestFractionForNone) {
   const auto image = read_tiff({32, 3}, pixels_of([](int i) {
@@ -92,7 +92,7 @@ TEST(DepthTiff, TakesTheLowestFractionForNone) {
   EXPECT_EQ(image->values[3], 7);
 }
 
-// Each row begins at a byte, and the most significant bit of a number comes first.
+// Each row of packed numbers begins at a byte. The most significant bit of a number comes first.
 TEST(DepthTiff, ReadsPackedNumbers) {
   for (const std::uint32_t bits : {1U, 2U, 3U, 4U, 7U, 9U, 10U, 12U, 14U, 17U, 20U, 31U}) {
     const auto number = [&](int i) {
@@ -125,7 +125,7 @@ TEST(DepthTiff, TransparentPixelsAreMissing) {
     const float value = image.values[static_cast<std::size_t>(i)];
     EXPECT_TRUE(i % 3 ? value == static_cast<float>(i) : std::isnan(value)) << i;
   }
-  // If the second channel is requested, its values are returned.
+  // If the second channel is requested, the result has its values.
   EXPECT_EQ(value_of(read_tiff({16, 1, 2}, pixels, {false, 2})).values[0], 32767);
 }
 
@@ -201,8 +201,8 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   EXPECT_EQ(tiff_message(with_field(whole_tiff(), {1, 7}, 1U << 26)), pixels + "335544320");
 }
 
-// Returns a picture of 40 x 24 16-bit numbers in 3 x 2 tiles of 16 x 16. The number in column x and row y is
-// 100 y + x. Where tiles extend beyond the picture, their numbers are 7.
+// Returns a picture of 40 x 24 numbers of 16 bits, in 3 x 2 tiles of 16 x 16 numbers. The number in column x
+// and row y is 100 y + x. Numbers of tiles outside the picture are 7.
 std::string tiled_tiff(std::uint32_t tile_width) {
   constexpr std::uint32_t columns = 40, rows = 24, side = 16, tiles = 6, tile_bytes = 2 * side * side;
   const std::uint32_t data = 8 + 2 + 11 * 12 + 4;
@@ -242,8 +242,8 @@ TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
   EXPECT_EQ(tiff_message(tiled_tiff(16).substr(0, tiled_tiff(16).size() - 1)),
             cat("d.tif, tile 5: expected 512 bytes from byte ", tiled_tiff(16).size() - 512,
                 " on, found 511; the file is cut, get it anew"));
-  // Some programs write the tags after the picture. If such a file is cut, it has no tags, and its header
-  // refers to a position after its end.
+  // Some programs write the tags after the picture. If such a file is cut, the tags are missing, and its
+  // header refers to a position after the file's end.
   for (const auto& [begin, place] : {std::pair{std::string("II*\0\x20\x1\0\0", 8), "byte 4"},
                                      {std::string("MM\0*\0\0\x1\x20", 8), "byte 4"},
                                      {std::string("II+\0\x8\0\0\0\x20\x1\0\0\0\0\0\0", 16), "byte 8"}})

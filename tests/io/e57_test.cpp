@@ -1,4 +1,4 @@
-// Tests E57 files that the test program writes itself; corpus_test.cpp reads files of other programs.
+// Tests E57 files that the test program itself writes. corpus_test.cpp reads files of other programs.
 #include <gtest/gtest.h>
 
 #include "io/e57/pages.h"
@@ -13,14 +13,14 @@ E57TestScan scan_of(const std::vector<double>& x, const std::vector<double>& y, 
   return {{e57_doubles("cartesianX", x), e57_doubles("cartesianY", y), e57_doubles("cartesianZ", z)}, xml};
 }
 
-// Returns the error message for a file in whose contents `what` was replaced by `by`.
+// Returns the error message for a file whose contents have `by` in place of `what`.
 std::string message_with(const std::string& what, const std::string& by) {
   const std::string contents = e57_contents({scan_of({1}, {2}, {3})});
   return message_of(e57_pages(replaced(contents, what, by)), "a.e57");
 }
 
 TEST(E57, ChecksumsAreThoseOfCastagnoli) {
-  EXPECT_EQ(io::crc32c("123456789"), 0xE3069283U);  // the check value of CRC catalogues
+  EXPECT_EQ(io::crc32c("123456789"), 0xE3069283U);  // the check value in catalogues of CRCs
   std::string text;
   for (int size = 0; size < 40; ++size, text += static_cast<char>(size * 37))
     EXPECT_EQ(io::crc32c(text), bitwise_crc32c(text));
@@ -34,7 +34,7 @@ TEST(E57, PointsColoursAndInvalidOnesAreRead) {
   EXPECT_EQ(file.dropped_points, 1U);
 }
 
-// Each packet has only seven bytes, so packets end inside numbers, at any bit.
+// Each packet has only seven bytes, so it ends inside a number, at any bit.
 TEST(E57, IntegersOfAllWidthsAreUnpacked) {
   for (unsigned bits = 1; bits <= 64; ++bits) {
     const std::uint64_t most = bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
@@ -60,7 +60,7 @@ TEST(E57, ScaledIntegersAndSinglesAreRead) {
       "cartesianX", R"(type="ScaledInteger" minimum="-8" maximum="7" scale="0.5" offset="100")", 4, {15}};
   scan.columns[1] = {
       "cartesianY", R"(type="Float" precision="single")", 32, {std::bit_cast<std::uint32_t>(1.25F)}};
-  // All z coordinates are equal, so the file has no bits for them.
+  // All z coordinates are equal, so a number of 0 bits is enough for each.
   scan.columns[2] = {"cartesianZ", R"(type="Integer" minimum="6" maximum="6")", 0, {0}};
   EXPECT_EQ(file_of(e57({scan}), "a").cloud.points[0], Vec3(103.5, 1.25, 6));
 }
@@ -75,7 +75,7 @@ TEST(E57, SphericalCoordinatesAreTurnedIntoCartesianOnes) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((file.cloud.points[i] - expected[i]).norm(), 1e-15);
 }
 
-// The pose is a quarter turn about z, as a quaternion of length 2, and a translation.
+// The pose consists of a rotation, a quarter turn about z as a quaternion of length 2, and a translation.
 TEST(E57, ScansAreMovedByTheirPoses) {
   const std::string pose =
       "<pose><rotation><w>1.4142135623730951</w><z>1.4142135623730951</z><x/><y/></rotation>"
@@ -92,16 +92,15 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   EXPECT_EQ(file.cloud.normals[1], Vec3f(1, 0, 0));
 }
 
-// The pose has only the components w and x of its quaternion, which is a quarter turn about x, and no
-// translation.
+// The pose has no translation. Of its quaternion, a quarter turn about x, it has only the components w and x.
 TEST(E57, MissingPartsOfAPoseAreZero) {
   const auto file = value_of(
       read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a"));
   EXPECT_LT((file.cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
 }
 
-// Only red has stated limits. Without limits, integers are scaled by their minimum and maximum, and
-// floating-point numbers are expected to be from 0 to 1.
+// Only red has stated limits. Integers without limits are scaled by their minimum and maximum.
+// Floating-point numbers without limits are expected to be from 0 to 1.
 TEST(E57, ColoursAreScaledByTheirLimits) {
   E57TestScan whole = scan_of({0, 1}, {0, 1}, {0, 1},
                               "<colorLimits><colorRedMinimum>100</colorRedMinimum>"
@@ -116,7 +115,7 @@ TEST(E57, ColoursAreScaledByTheirLimits) {
   EXPECT_EQ(file_of(e57({whole}), "a").cloud.colours, (std::vector<Colour>{{0, 255, 128}, {64, 1, 255}}));
   EXPECT_EQ(file_of(e57({fractions}), "a").cloud.colours,
             (std::vector<Colour>{{64, 51, 51}, {255, 204, 204}}));
-  // If one scan has no colours, the whole cloud has none.
+  // If one scan has no colours, the whole cloud gets none.
   EXPECT_FALSE(file_of(e57({whole, scan_of({1}, {2}, {3})}), "a").cloud.has_colours());
 }
 

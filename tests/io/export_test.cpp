@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Reads an archive by its central directory. Returns the name and the inflated content of each file, after
-// checking its CRC.
+// Reads an archive by its central directory, and checks the CRC of each file. Returns the names and the
+// inflated contents.
 std::map<std::string, std::string> unzip(const std::vector<std::byte>& bytes) {
   const auto number = [&](std::size_t at, std::size_t size) {
     std::size_t value = 0;

@@ -1,5 +1,5 @@
-// Tests the table of formats, the lists that are made from it, and that each of its rows reads the files of
-// its format.
+// Tests the table of formats and the lists that are made from it. Each row of the table must read the files
+// of its format.
 #include "io/formats.h"
 
 #include <gtest/gtest.h>

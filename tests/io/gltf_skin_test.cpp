@@ -9,9 +9,8 @@
 namespace relievo {
 namespace {
 
-// The sample has joints and weights for each vertex, and a skin of two joints. The first joint moves by (0,
-// 0, 5), the second doubles sizes. The inverse bind matrices move back by (0, 0, 1). All weights belong to
-// the second joint.
+// The sample has joints and weights for each vertex, and a skin of two joints. The first joint moves by (0, 0, 5), the
+// second doubles sizes. The inverse bind matrices move back by (0, 0, 1). All weight is on the second joint.
 TEST(Gltf, SkinsPoseTheirMeshes) {
   std::string buffer = gltf_buffer();
   const std::size_t joints_at = buffer.size();

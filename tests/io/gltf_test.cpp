@@ -13,8 +13,7 @@
 namespace relievo {
 namespace {
 
-// Reads the glTF `text`, with `files` in the same folder. Adds the names of the files that the reader
-// requests to `asked`.
+// Reads the glTF text with `files` in the same folder. Adds the names of the files that the reader requests to `asked`.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
   return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
@@ -24,7 +23,7 @@ Result<CloudFile> read_beside(const std::string& text, const std::map<std::strin
   });
 }
 
-// Returns the sample, read after `what` in its JSON was replaced by `by`.
+// Returns the sample, read with `by` in place of `what` in its JSON.
 CloudFile changed(std::string_view what, std::string_view by) {
   return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
 }
@@ -52,7 +51,7 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
 const std::string draco_primitive =
     R"("extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}},"attributes")";
 
-// If a file has both plain and compressed vertices, it does not require the extension.
+// A file that has both plain and compressed vertices does not require the extension for compression.
 TEST(Gltf, CompressedVerticesAreRefusedUnlessThereArePlainOnes) {
   const std::string both = replaced(gltf_json(), R"("attributes")", draco_primitive);
   EXPECT_EQ(file_of(glb_of(both), "a.glb").mesh.triangles, tetrahedron_triangles);
@@ -71,7 +70,7 @@ TEST(Gltf, PointsAndLinesBesideTrianglesAreTold) {
                                                     "left out the lines"}));
 }
 
-// The data in a URI are base64 or plain bytes. In both forms, any byte may be escaped.
+// The data in a URI are base64 or plain bytes. In both forms any byte may be escaped, so the test escapes some.
 TEST(Gltf, ReadsDataOfUrisInBothForms) {
   std::string escaped;
   for (const char byte : gltf_buffer()) {
@@ -132,7 +131,7 @@ TEST(Gltf, ReadsMeshesWithoutNodes) {
   EXPECT_EQ(file_of(glb_of(two), "a.glb").mesh.triangles.size(), 8U);
 }
 
-// Chunks of unknown kinds, and a second binary chunk, are ignored.
+// Chunks of unknown kinds are ignored, and so is a second binary chunk.
 TEST(Gltf, TakesTheFirstBinaryChunk) {
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
   const std::string chunks = glb().substr(12), text_size = chunks.substr(0, 4);
@@ -160,7 +159,7 @@ TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
   const auto file = changed(R"("nodes":[0])", R"("nodes":[0.0])");
 }
 
-// Returns the tetrahedron with its second and fourth corner replaced by sparse values.
+// Returns the tetrahedron, with its second and fourth corner given by sparse values.
 std::string sparse_glb(const std::string& base) {
   std::string json =
       replaced(gltf_json(), R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
@@ -200,8 +199,8 @@ TEST(Gltf, AnEmptyAccessorHasNoPoints) {
   EXPECT_EQ(message_of(json, "a.gltf"), "a.gltf, meshes: expected triangles or points, found none");
 }
 
-// Exporters store coordinates as integers of 8 or 16 bits. These are fractions of the largest integer, or the
-// node scales them.
+// Exporters store coordinates as integers of 8 or 16 bits. The coordinates are fractions of the largest
+// integer, or the node scales the integers.
 TEST(Gltf, ReadsQuantisedMeshes) {
   struct Kind {
     int code;
@@ -231,7 +230,7 @@ TEST(Gltf, ReadsQuantisedMeshes) {
                     R"({"buffer":0,"byteLength":48,"byteStride":)" + std::to_string(stride) + "}");
     const auto file = file_of(glb_of(json, buffer), "a.glb"), plain = file_of(glb(), "a.glb");
     EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
-    const Vec3 middle(10, 0, 0);  // the nodes move the mesh here, and double its size
+    const Vec3 middle(10, 0, 0);  // the nodes move the mesh to this point and double its size
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 expected =
           (plain.mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
@@ -240,7 +239,7 @@ TEST(Gltf, ReadsQuantisedMeshes) {
   }
 }
 
-// Together, the two nodes of the file move meshes by (10, 0, 0) and double their size. The second copy is
+// The two nodes of the file together move a mesh by (10, 0, 0) and double its size. The second copy is
 // also rotated by 90 degrees about z.
 TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
   std::string buffer = gltf_buffer();
@@ -320,7 +319,7 @@ double volume_of(const Mesh& mesh) {
   return volume;
 }
 
-// Mirroring turns the triangles of a mesh inside out. The format requires that readers reverse them.
+// Mirroring turns the triangles of a mesh inside out. The format requires readers to reverse them.
 TEST(Gltf, KeepsTheOutsideOfMirroredMeshesOutside) {
   for (const char* scale : {"[2,2,2]", "[-2,2,2]", "[-2,-2,-2]"}) {
     const auto file = changed("[2,2,2]", scale);
@@ -340,8 +339,8 @@ TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
     }
 }
 
-// Searching for the root from each node would take half a minute, and a recursive search would overflow the
-// stack.
+// If the reader searched for the root from each node, this would take half a minute; if it searched
+// recursively, the stack would overflow.
 TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";
   const int length = 400000;

@@ -1,5 +1,4 @@
-// Tests heights in text files: the grids of GIS programs, and tables of numbers, which must not be read as
-// clouds.
+// Tests heights in text files: grids of GIS programs, and tables of numbers, which must not be read as clouds.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,8 +53,8 @@ TEST(EsriGrid, ReadsOtherSpellings) {
   EXPECT_TRUE(std::isnan(commas.values.at(3, 3)));
 }
 
-// A grid is in degrees if its corner is a position on the globe and its heights, in metres, would be far too
-// large for its width.
+// A grid is in degrees if its corner is a position on the globe, and its heights would be far too large
+// for its width if both were in metres.
 TEST(EsriGrid, ConvertsDegrees) {
   const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
   const auto size_at = [&](const std::string& corner, const std::string& cell) {
@@ -63,7 +62,7 @@ TEST(EsriGrid, ConvertsDegrees) {
                     heights)
         .pixel_size;
   };
-  const Vec2 degrees = size_at("59", "0.5");  // the centre is at 60 degrees
+  const Vec2 degrees = size_at("59", "0.5");  // the centre of the grid is at 60 degrees north
   EXPECT_NEAR(degrees.x() / degrees.y(), .5, 1e-12);
   EXPECT_EQ(size_at("59", "100"), Vec2(100, 100));
   EXPECT_EQ(size_at("100", "0.5"), Vec2(.5, .5));
@@ -89,7 +88,7 @@ TEST(EsriGrid, SaysWhatIsWrong) {
             "d: expected at most 134217728 pixels, found 50000 x 40000");
 }
 
-// Returns a table with the heights of a hill.
+// Returns a table of the heights of a hill, as text.
 std::string hill(int columns, int rows, const std::string& separator, char point = '.') {
   std::string text;
   for (int r = 0; r < rows; ++r) {
@@ -155,8 +154,8 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-// Returns the hill as a table with the position of each row before it, the position of each column above it,
-// and `corner` in the first cell.
+// Returns the table of hill() with headings. The position of each row is before the row, the position
+// of each column above the column. `corner` is in the first cell.
 std::string with_places(const std::string& corner, double wide, double high) {
   const std::vector<std::string> rows = lines_of(hill(12, 9, ","));
   std::string text = corner;

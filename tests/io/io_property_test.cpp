@@ -1,4 +1,4 @@
-// Tests properties of the readers with generated files, both whole and broken.
+// Tests properties of the readers with generated files, some whole and some broken.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -43,8 +43,8 @@ rc::Gen<float> finite_float() {
   });
 }
 
-// Returns columns with the given names and some extra columns, shuffled. All have random types; the extra
-// ones may be lists.
+// Returns columns with the given names and some extra columns, shuffled. All columns have random types;
+// the extra columns may be lists.
 std::vector<PlyColumn> any_columns(std::vector<std::string> names) {
   const int extras = *inRange(0, 4);
   for (int i = 0; i < extras; ++i) names.push_back("extra" + std::to_string(i));
@@ -75,7 +75,7 @@ PlyTable any_table(const std::string& name, const std::vector<std::string>& colu
   return table;
 }
 
-// Returns the value in the named column of the row. The column must not be a list.
+// Returns the value of a row in the column `name`. The column must not be a list.
 double value_of(const PlyTable& table, const std::vector<double>& row, std::string_view name) {
   std::size_t at = 0;
   for (const PlyColumn& column : table.columns) {
@@ -161,7 +161,7 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Returns small valid files of every format: format_samples() and more PLY files. Tests then break them.
+// Returns small valid files of every format: format_samples() and more PLY files. Tests break these files.
 std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{
@@ -216,8 +216,8 @@ TEST(BrokenFiles, WithAnyByteChangedGiveAnAnswer) {
   }
 }
 
-// Makes up to 5 edits: removes, duplicates or inserts bytes, or inserts a number, a word or a line that may
-// break the format.
+// Changes a text by up to 5 edits. Each removes, duplicates or inserts bytes, or inserts a number, a word
+// or a line that may break the format.
 std::string mutated(std::string text) {
   const auto place = [&] { return *inRange<std::size_t>(0, text.size() + 1); };
   const int edits = *inRange(1, 6);

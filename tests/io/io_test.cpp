@@ -55,7 +55,7 @@ TEST(ReadCloud, ContentGoesBeforeTheName) {
   EXPECT_EQ(read("v 1 2 3\n", "scan.OBJ")->format, "OBJ");
 }
 
-// Writes a cloud by write_ply(), which does not check it. Returns the file as it is read back.
+// Writes a cloud by write_ply(), which does not check the cloud. Returns the file as the reader reads it.
 CloudFile through_ply(const Cloud& cloud) {
   return file_of(as_string(write_ply(cloud)), "scan.ply");
 }
@@ -154,12 +154,12 @@ struct Scan {
   bool has_normals;
 };
 
-// Prints the scan in messages of its tests.
+// Prints the name of a scan in test messages.
 void PrintTo(const Scan& scan, std::ostream* out) {
   *out << scan.file;
 }
 
-// Returns the characters of a file's path that are allowed in the name of a test.
+// Returns a file's path without the characters that are not allowed in the name of a test.
 std::string test_name_of(std::string path) {
   std::erase_if(path, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
   return path;

@@ -1,4 +1,4 @@
-// Tests LAZ files that the test program writes itself; corpus_test.cpp reads files of other programs.
+// Tests LAZ files that the test program itself writes. corpus_test.cpp reads files of other programs.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -54,7 +54,8 @@ TEST(Laz, ChunksOfDifferentSizesAreRead) {
   }
 }
 
-// A chunk size of 0 has the same meaning as 2^32 - 1: the table has the number of points of each chunk.
+// A chunk size of 0 has the same meaning as 2^32 - 1: chunks have any number of points, and the table
+// states each number.
 TEST(Laz, ChunksOfSizeZeroAreOfAnySize) {
   const std::string file = laz({any_points(3, 1), any_points(700, 2)}, true);
   EXPECT_EQ(file_of(patched(file, 429 + 12, std::uint32_t{0}), "a").cloud.points,
@@ -87,13 +88,13 @@ TEST(Laz, NoiseAndWithheldPointsAreLeftOut) {
   }
 }
 
-// Writes points of several scanners as versions 3 and 4 of LASzip do. All points have the same coordinates
-// and grey colours.
+// Writes points of several scanners as version 3 or version 4 of LASzip writes them. All points have the
+// same coordinates, and their colours are grey.
 class ScannerLayers {
  public:
   explicit ScannerLayers(bool is_version_3) : is_version_3_(is_version_3) {}
 
-  // Sets the first point, which is not compressed, but initialises the models of its scanner.
+  // Sets the first point. It is not compressed, but initialises the models of its scanner.
   void start(std::size_t scanner, std::uint16_t grey) {
     scanner_ = context_ = scanner;
     scanners_.emplace(scanner, Scanner{});
@@ -195,7 +196,7 @@ TEST(Laz, BrokenFilesAreNamed) {
   EXPECT_TRUE(message(patched(good, 247, std::uint64_t{1} << 30)).contains(": expected "));
 }
 
-// The file has no table of chunks, and its end comes before the last point that the header announces.
+// The file has no table of chunks, and it ends before the last point that its header announces.
 TEST(Laz, PointsBeyondTheEndAreRefused) {
   std::string file = laz({any_points(50, 1)}, false);
   file = patched(patched(file, 429, std::uint16_t{1}), 247, std::uint64_t{100000});

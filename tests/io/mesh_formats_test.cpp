@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the corner coordinates of a mesh's triangles, smallest first, to compare meshes independently of
-// numbering.
+// Returns the corner coordinates of a mesh's triangles in sorted order, so that meshes can be compared
+// independently of their numbering.
 std::vector<std::array<std::array<double, 3>, 3>> corners_of(const Mesh& mesh) {
   std::vector<std::array<std::array<double, 3>, 3>> all;
   for (const Triangle& t : mesh.triangles) {
@@ -57,7 +57,7 @@ TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
   }
 }
 
-// The arrow has the area 2. A fan from its second corner would have a larger area.
+// The arrow is a concave polygon of area 2. A fan from its second corner would cover a larger area.
 TEST(MeshFormats, ConcavePolygonsAreCoveredInEveryFormat) {
   const PlyTable vertices = ply_vertices({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}});
   const PlyTable faces = ply_faces({{4, 1, 2, 3, 0}});
@@ -171,8 +171,7 @@ std::string big(T value) {
   return bytes;
 }
 
-// Returns the tetrahedron as a binary OFF file, with `of_vertex` after each position. The last face has a
-// colour.
+// Returns the tetrahedron as a binary OFF file. `of_vertex` follows each position. The last face has a colour.
 std::string binary_off(const std::string& keyword, const std::string& of_vertex) {
   std::string file = keyword + " BINARY\n" + big(4) + big(4) + big(6);
   for (const Vec3& p : tetrahedron_points) {
@@ -221,8 +220,8 @@ TEST(Off, TheKeywordMayBeMissing) {
   expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", "OFF "), "a.off", "OFF");
 }
 
-// Numbers after a face may be its colour, so a second face in the same line is skipped. The reader notices
-// the missing face only at the end of the file, and then states this reason.
+// Numbers after a face may be its colour, so a second face in the same line is skipped as a colour. The
+// reader notices only at the end of the file that a face is missing. It must then state this reason.
 TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
   EXPECT_EQ(
       message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),

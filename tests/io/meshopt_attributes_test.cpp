@@ -1,5 +1,4 @@
-// Tests attributes in both versions of meshopt's compression, with encoders that do not depend on the
-// decoder.
+// Tests attributes in both versions of meshopt's compression. The encoders do not depend on the decoder.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,7 +15,7 @@ namespace {
 
 using namespace io;
 
-// Returns the difference of two numbers in four bytes, as version 1 stores it in a channel of this mode.
+// Returns the four bytes by which version 1 stores the difference of two numbers, in a channel of mode `mode`.
 std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std::uint32_t now) {
   std::uint32_t stored = std::rotr(before ^ now, static_cast<int>(mode >> 4));
   if (mode < 2) {
@@ -32,8 +31,8 @@ std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std:
   return bytes;
 }
 
-// Returns the elements as version 1 compresses them. `modes` has the mode of each channel of four bytes. The
-// columns of bytes use all suitable encodings in turn.
+// Returns the elements as version 1 compresses them. `modes` contains the mode of each channel of four
+// bytes. The columns of bytes use all suitable encodings, one after the other.
 std::string compressed_attributes_1(const std::string& elements, std::size_t stride,
                                     const std::string& modes) {
   const std::size_t count = elements.size() / stride, block = block_of(stride);
@@ -68,9 +67,9 @@ std::string compressed_attributes_1(const std::string& elements, std::size_t str
 }
 
 TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
-  // Sixteen differences, of 4 bits each, of the first byte of each four-byte element. Two of them (0xf) do
-  // not fit into 4 bits; they follow as the last two bytes. The other three bytes of the elements do not
-  // change.
+  // The group has the differences of the first byte of sixteen four-byte elements, with 4 bits each. Two
+  // differences do not fit into 4 bits; 0xf stands for them, and they follow as the last two bytes. The
+  // other three bytes of the elements do not change.
   const std::string group = bytes_of({0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5});
   const std::string stream =
       "\xA0" + bytes_of({2}) + group + bytes_of({0, 0, 0}) + std::string(28, '\0') + bytes_of({100, 1, 2, 3});
@@ -94,7 +93,7 @@ TEST(MeshoptAttributes, DecodesAttributesOfAllSizes) {
   std::mt19937 random(1);
   for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
     for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
-      for (const unsigned range : {1, 2, 5, 256}) {  // differences of bytes are less than this
+      for (const unsigned range : {1, 2, 5, 256}) {  // differences of bytes are less than `range`
         const std::string elements = random_elements(random, count * stride, stride, range);
         const std::string stream = compressed_attributes(elements, stride);
         const MeshoptLayout layout{.count = count, .stride = stride};
@@ -130,7 +129,7 @@ TEST(MeshoptAttributes, RefusesModesThatAreNone) {
     EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1) + mode, layout));
 }
 
-// In version 1, a block of four-byte elements takes a single byte if all its differences are 0. A block has
+// In version 1, a block of four-byte elements takes only one byte if all its differences are 0. A block has
 // at most 256 elements.
 TEST(MeshoptAttributes, TakesNoMoreMemoryThanItsBytesStandFor) {
   const std::string stream = "\xA1" + std::string(1000, '\xAA') + std::string(24, '\0');

@@ -1,6 +1,6 @@
-// Tests the buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression compress. They come
-// from examples of the specification, from hand-made streams, and from an encoder that does not depend on the
-// decoder.
+// Tests the buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression compress. The
+// compressed data are examples of the specification, hand-made streams, and the output of an encoder that
+// does not depend on the decoder.
 #include "io/gltf/meshopt.h"
 
 #include <gtest/gtest.h>
@@ -43,25 +43,25 @@ TEST(Meshopt, RefusesLayoutsThatAreNotAllowed) {
   EXPECT_FALSE(meshopt_mode("POINTS") || meshopt_filter("QUATERNION"));
 }
 
-// Returns the stream of triangles with these codes and data. Entry 0 of its table means two new corners, and
-// entry 1 means the last vertex and a new corner.
+// Returns a stream of triangles with the given codes and data. Entry 0 of its table means two new corners.
+// Entry 1 means the last vertex and a new corner.
 std::string triangle_stream(const std::string& codes, const std::string& data) {
   return "\xE1" + codes + data + bytes_of({0x00, 0x10}) + std::string(14, '\0');
 }
 
 TEST(Meshopt, DecodesEveryKindOfTriangle) {
   const std::string codes = bytes_of({
-      0xF0,  // three new corners: 0 1 2; edges, the newest first: 0 2, 2 1, 1 0
-      0x00,  // the newest edge, 0 2, and a new corner
-      0x10,  // the second edge, which is 3 2, and a new corner
-      0x02,  // the newest edge, 3 4, and the third newest of the vertices 4 3 2
-      0x0E,  // the newest edge, 3 2, and the index after the last explicit one, which is 0
-      0x0D,  // the newest edge, 3 1, and the index before the last explicit one, 1
-      0x0F,  // the newest edge, 3 0, and an explicit index: the last one, 0, plus 10
-      0xF1,  // a new corner 5, the last vertex and a new corner
-      0xFF,  // explicit indices: minus 3, plus 2 and plus 300
-      0xFE,  // a new corner, the newest vertex and an explicit one
-      0xFE,  // starts again with 0 1 2
+      0xF0,  // three new corners, 0 1 2; its edges, the newest first, are 0 2, 2 1, 1 0
+      0x00,  // the newest edge, 0 2, and a new corner, 3
+      0x10,  // the second newest edge, 3 2, and a new corner, 4
+      0x02,  // the newest edge, 3 4, and vertex 2, the third newest after 4 and 3
+      0x0E,  // the newest edge, 3 2, and vertex 1: the last explicit index, 0, plus 1
+      0x0D,  // the newest edge, 3 1, and vertex 0: the last explicit index, 1, minus 1
+      0x0F,  // the newest edge, 3 0, and vertex 10: the last explicit index, 0, plus 10
+      0xF1,  // a new corner, 5, the last vertex, 10, and a new corner, 6
+      0xFF,  // three explicit indices: the last one minus 3, then plus 2, then plus 300
+      0xFE,  // a new corner, 7, the newest vertex, 309, and an explicit index, 308
+      0xFE,  // the triangles start again with 0 1 2
   });
   const std::string data = bytes_of({20, 0xFF, 5, 4, 0xD8, 0x04, 0x1F, 1, 0x00});
   const MeshoptLayout layout{MeshoptMode::triangles, MeshoptFilter::none, 33, 4};
@@ -77,8 +77,8 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
   EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
 }
 
-// Decodes triangles as the specification says, but with lists instead of ring buffers. Makes up the data that
-// the codes need.
+// Decodes triangles as the specification describes it, but with lists instead of ring buffers. Makes up the
+// data that the codes need.
 class TriangleModel {
  public:
   TriangleModel(const std::string& table, std::mt19937& random) : table_(table), random_(random) {}
@@ -155,7 +155,8 @@ TEST(Meshopt, DecodesRandomTrianglesAsAModelDoes) {
 }
 
 TEST(Meshopt, DecodesIndicesOfTwoSeries) {
-  // Differences to the last index of the same series: 5 and -3 in the first, 1000 and 1 in the second.
+  // Each index is stored as the difference from the last index of its series. The differences are 5
+  // and -3 in the first series, 1000 and 1 in the second.
   const std::string stream =
       "\xD1" + bytes_of({5 << 2, 1000 * 4 % 128 + 1 + 128, 1000 * 4 / 128, 2 << 2 | 2, 1 << 2 | 1}) +
       std::string(4, '\0');
@@ -165,7 +166,7 @@ TEST(Meshopt, DecodesIndicesOfTwoSeries) {
   EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 5, 4}));
 }
 
-// Returns the elements after they were compressed, decoded and filtered.
+// Compresses the elements, decodes them and applies the filter. Returns the result.
 std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::string& elements,
                                                std::size_t stride) {
   return decode_meshopt(compressed_attributes(elements, stride),
@@ -173,8 +174,8 @@ std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::
 }
 
 TEST(Meshopt, UnfoldsTheOctahedron) {
-  // The directions are +x, -y, halfway between +x and +y, and -z, which is at the corners. 127 means 1; with
-  // fewer bits, 15 means 1.
+  // The directions are +x, -y, halfway between +x and +y, and -z, which is at the corners of the folded
+  // square. 127 means 1; with fewer bits, 15 means 1.
   const std::string folded = bytes_of({127, 0, 127, 7, 0, -15, 15, 8, 64, 63, 127, 9, 15, 15, 15, 1});
   EXPECT_EQ(text_of(filtered(MeshoptFilter::octahedral, folded, 4)),
             bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
@@ -205,7 +206,7 @@ TEST(Meshopt, MixesColours) {
   EXPECT_FALSE(filtered(MeshoptFilter::colour, std::string(4, '\0'), 4));
 }
 
-// The decoder either refuses the bytes, or returns as many bytes as the layout states.
+// The decoder must refuse the bytes or return as many bytes as the layout states.
 TEST(Meshopt, SurvivesAnyBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {

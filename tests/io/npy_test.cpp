@@ -1,4 +1,4 @@
-// Tests NumPy's arrays of points; tests/io/depth_formats_test.cpp tests those that are depth images.
+// Tests NumPy arrays of points. tests/io/depth_formats_test.cpp tests arrays that are depth images.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// The numbers of an array of any shape: value(row, column) for all rows, counted through all dimensions but the last.
+// Returns the numbers of an array as bytes, with value(row, column) for each number. A row is an index of all
+// dimensions but the last, counted through; a column is an index of the last dimension.
 template <typename Number, typename Value>
 std::string numbers(std::size_t rows, std::size_t columns, const Value& value) {
   std::string data;
@@ -47,7 +48,7 @@ TEST(NpyPoints, KeepTheDigitsOfLargeCoordinates) {
             Vec3(far(1, 0), far(1, 1), far(1, 2)));
 }
 
-// Two pictures of 3 x 4 points. In Fortran's order, the first index runs fastest.
+// The array contains two pictures of 3 x 4 points. In Fortran's order, the first index changes fastest.
 TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   const auto far = [](std::size_t row, std::size_t column) { return counted(row + 100, column); };
   std::vector<Vec3> points = counted_points(124);
@@ -62,7 +63,8 @@ TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   EXPECT_EQ(file_of(npy("<f4", data, "2, 3, 4, 3", true), "scan").cloud.points, points);
 }
 
-// Rows of more than three numbers have normals and colours if the values show it. A short table is a depth image.
+// Rows of more than three numbers have normals and colours if their values look like it. A short table is a depth
+// image.
 TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   const auto value = [](std::size_t r, std::size_t c) {
     const double turn = .1 * static_cast<double>(r);
@@ -84,8 +86,8 @@ TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   EXPECT_TRUE(is_picture(bytes_of(npy("<u2", numbers<std::uint16_t>(200, 6, counted), "200, 6"))));
 }
 
-// Returns an array of the points that a camera with y down sees of a plane at distance 2, with ripples of a
-// tenth of a pixel.
+// Returns an array of the points that a camera sees. Its y axis points down. It looks at a plane at
+// distance 2, whose depths are off by up to 0.03 pixels.
 std::string point_map(float missing) {
   constexpr int columns = 24, rows = 18;
   std::string data;

@@ -10,7 +10,7 @@ namespace {
 const PlyTable three_vertices = ply_vertices({{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}});
 const std::vector<Vec3> three_points = {{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}};
 
-// An ASCII file with three vertices that tests modify.
+// An ASCII file with three vertices. Tests change parts of it.
 const std::string small_ply =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
     "z\nend_header\n"
@@ -84,7 +84,7 @@ TEST_P(Ply, HeaderMayHaveCommentsAndCrlf) {
 TEST_P(Ply, TruncatedVerticesAreAnError) {
   const std::string whole = encode({three_vertices});
   const std::size_t header = encode_ply_header({three_vertices}, GetParam()).size();
-  // If an ASCII file is cut within its last number or after it, the reader cannot notice that.
+  // If an ASCII file is cut within its last number or after it, the reader cannot notice the cut.
   const std::size_t least =
       GetParam() == PlyEncoding::ascii ? whole.rfind(' ', whole.size() - 3) + 1 : whole.size();
   for (std::size_t size = header; size < least; ++size)

@@ -50,8 +50,8 @@ Decoded decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// Returns an image of ramps, jumps and slight noise, for which every filter is useful. Its values range from
-// the smallest to the largest number.
+// Returns an image of ramps, jumps and slight noise, for which each filter of PNG is useful somewhere. Its
+// values range from the smallest to the largest number of the type.
 template <typename T>
 Image<T> pattern(int width, int height, int channels) {
   Image<T> image{width, height, channels, {}};

@@ -1,4 +1,4 @@
-// Checks by their areas that triangles cover polygons that a fan does not cover.
+// Checks by areas that triangles cover polygons, among them polygons that a fan of triangles does not cover.
 #include "io/polygon.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +21,8 @@ Vec3 area_of(const Polygon& p) {
   return sum;
 }
 
-// Expects that triangulate() covers the polygon, which must not cross itself. If no triangle is reversed and
-// the areas add up to that of the polygon, the triangles cover it without overlap.
+// Expects that triangulate() covers the polygon, which must not cross itself. If no triangle is reversed,
+// and the areas of the triangles add up to that of the polygon, they cover it without overlaps.
 void expect_covered(const Polygon& polygon, const char* what) {
   const auto triangles = triangulate(polygon);
   const Vec3 area = area_of(polygon);
@@ -37,7 +37,7 @@ void expect_covered(const Polygon& polygon, const char* what) {
   EXPECT_NEAR(sum, 1, 1e-5) << what;
 }
 
-// Expects that a polygon in a tilted plane is covered, from every first corner and in both orientations.
+// Expects that a polygon in a tilted plane is covered, whichever corner comes first, and in both orientations.
 void expect_covered_in_every_way(Polygon polygon, const char* what) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond(.3, -.5, .7, .2).normalized();
   for (Vec3& p : polygon) p = turn * p + Vec3(300, -20, 7);
@@ -135,7 +135,7 @@ TEST(Triangulate, FansOutWhatNothingCovers) {
 TEST(Triangulate, TakesSecondsForTheLargestPolygons) {
   expect_covered(comb(3300), "large comb");
   expect_covered(spiral(9900), "large spiral");
-  EXPECT_EQ(triangulate(comb(100000)).size(), 300000U);  // so large that it becomes a fan
+  EXPECT_EQ(triangulate(comb(100000)).size(), 300000U);  // so large that a fan is used
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ TEST(ScanSize, IsThatOfAPicture) {
   EXPECT_EQ(size.points, 0U);
 }
 
-// For every format, the estimate must be at least a tenth of the number of points that are read. It may be
-// rough, but must not severely underestimate the memory.
+// For every format, the estimated number of points must be at least a tenth of the number that is read.
+// The estimate may be rough, but must not severely underestimate the memory that reading needs.
 TEST(ScanSize, IsNotFarBelowThePointsOfAnyFormat) {
   for (const FileSample& sample : format_samples()) {
     const auto bytes = std::as_bytes(std::span(sample.bytes));

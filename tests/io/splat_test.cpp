@@ -1,4 +1,4 @@
-// Tests files of Gaussian splats: PLY with the properties of splats, and .splat.
+// Tests files of Gaussian splats: PLY files with the properties of splats, and .splat files.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ const std::vector<std::string> splat_properties = {
     "x",       "y",       "z",       "nx",      "ny",    "nz",    "f_dc_0", "f_dc_1", "f_dc_2",
     "opacity", "scale_0", "scale_1", "scale_2", "rot_0", "rot_1", "rot_2",  "rot_3"};
 
-// Returns a splat at a point, with f_dc and the logit of its opacity.
+// Returns the row of a splat at a point. `opacity` is the logit of the splat's opacity.
 std::vector<double> splat(const Vec3& at, const Vec3& f_dc, double opacity) {
   return {at.x(), at.y(), at.z(), 0, 0, 0, f_dc.x(), f_dc.y(), f_dc.z(), opacity, -3, -3, -3, 1, 0, 0, 0};
 }
@@ -31,7 +31,7 @@ PlyTable splats(const std::vector<std::vector<double>>& rows) {
 class Splats : public testing::TestWithParam<PlyEncoding> {};
 
 TEST_P(Splats, FaintOnesAreLeftOutAndColoursAreHarmonics) {
-  const double brightest = .5 / .28209479177387814;  // f_dc of the byte 255; the byte 0 has its negative
+  const double brightest = .5 / .28209479177387814;  // f_dc of byte 255; that of byte 0 is its negative
   const auto file =
       file_of(encode_ply({splats({splat({1, 2, 3}, {brightest, 0, -brightest}, .01),
                                   splat({4, 5, 6}, {0, 0, 0}, -.01), splat({7, 8, 9}, {9, -9, 0}, 8)})},
@@ -66,7 +66,7 @@ TEST_P(Splats, FaintOnesAreKeptOnRequest) {
   EXPECT_TRUE(file.remarks.empty());
 }
 
-// The axis of a splat that is thin along z, turned by 30 degrees around x, is (0, -sin 30, cos 30).
+// The splat is thin along z and turned by 30 degrees around x. So its axis is (0, -sin 30, cos 30).
 TEST_P(Splats, AxesAreThoseOfTheSmallestScale) {
   const double half = to_radians(15);
   const auto turned = [&](const Vec3& log_scales, double length) {

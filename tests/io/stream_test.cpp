@@ -42,7 +42,7 @@ StreamedCloud streamed(std::vector<std::byte> bytes, const View& view = front, d
   return value_of(stream_front(source, "a.ply", view, points));
 }
 
-// Returns a sphere with noise around a smaller sphere, which must never be visible.
+// Returns a noisy sphere around a smaller sphere. The smaller one must never be visible.
 Cloud shells(std::size_t n) {
   Cloud cloud = test::sphere(n, 1);
   test::Random random(5);
@@ -66,7 +66,7 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
     if (p.z() > .6) sum_sq += (p.norm() - 1) * (p.norm() - 1), ++n;
   }
   EXPECT_LT(error, .03);
-  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // averaging reduces the scan's noise, which is 0.002
+  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // averaging must reduce the scan's noise, which is 0.002
 }
 
 TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
@@ -79,8 +79,8 @@ TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
   EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
 }
 
-// If the colours of so many points were added up in single precision, their mean would be 256, which becomes
-// 0 as a byte.
+// If the colours of so many points were added up in single precision, their mean would be 256. As a byte,
+// this would be 0.
 TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
   std::vector<Vec3> points = test::sphere(600'000, 1).points;
   points.insert(points.end(), 400'000, Vec3(0, 0, 1));
@@ -195,15 +195,15 @@ TEST(StreamFront, ReadsLas) {
   EXPECT_NEAR(static_cast<double>(it.cloud.size()), 2000, 300);
   std::size_t behind = 0;
   for (std::size_t i = 0; i < it.cloud.size(); ++i) {
-    const Vec3 p = it.cloud.points[i] - Vec3(1e6, 2e6, 0);  // the file's offset
+    const Vec3 p = it.cloud.points[i] - Vec3(1e6, 2e6, 0);  // the points relative to the file's offset
     EXPECT_EQ(it.cloud.colours[i], (Colour{255, 0, 0}));
     if (p.head<2>().norm() > 900) continue;
     EXPECT_NEAR(p.norm(), 1000, 25);
     behind += p.z() < 0;
   }
-  // Without normals, a cell of the grid without points of the sphere's front shows points of its back. Near
-  // the centre of the sphere a cell has about 5 front points on average, so a share exp(-5) of these cells
-  // has none. The relief's own search for visible points removes the points of the back.
+  // The cloud has no normals. So if no front point of the sphere falls into a cell of the grid, the cell shows points
+  // of the back. Near the centre of the sphere a cell has about 5 front points on average, so a share exp(-5) of the
+  // cells there has none. The search for visible points in make_relief() removes the points of the back.
   EXPECT_LT(behind, it.cloud.size() / 50);
 }
 
@@ -234,7 +234,7 @@ TEST(StreamFront, BrokenFilesAreNamed) {
   EXPECT_EQ(stream_front(good, "a.ply", front, 10).error().kind, ErrorKind::option);
 }
 
-// Returns a LAS file with 400 points on a slope. The coordinates are multiples of the scale.
+// Returns a LAS file of 400 points on a slope. The coordinates are multiples of `scale`.
 std::string slope_las(double scale) {
   std::string file = patched(las(2).substr(0, 227), 107, std::uint32_t{400});
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -273,7 +273,7 @@ TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   ASSERT_TRUE(direct && by_stream);
   EXPECT_EQ(check_solid(by_stream->solid), "");
   EXPECT_NEAR(by_stream->report.height_mm, 5, .01);
-  // The averaged grid contains less of the steep rim, so the volumes differ a little.
+  // The averaged grid has less of the steep rim than the cloud, so the volumes differ a little.
   EXPECT_NEAR(volume_mm3(by_stream->solid) / volume_mm3(direct->solid), 1, .05);
 }
 

@@ -52,12 +52,12 @@ TEST(ReadSvg, SmoothCommandsMirrorTheLastControlPoint) {
 
 TEST(ReadSvg, ArcsAreEllipses) {
   EXPECT_NEAR(area_of(svg_of("M-3 0A3 2 0 0 1 3 0A3 2 0 0 1-3 0Z")), 6 * std::numbers::pi, .01);
-  // A chord as long as the radius has two arcs. The smaller one cuts off a circular segment: a sixth of the
-  // disc without its triangle.
+  // If a chord is as long as the radius, the smaller of its two arcs cuts off a circular segment. Its area
+  // is a sixth of the disc minus a triangle.
   const double segment = std::numbers::pi / 6 * 100 - std::sqrt(3.) / 4 * 100;
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 0 1 10 0Z")), segment, .05);
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 1 1 10 0Z")), 100 * std::numbers::pi - segment, .3);
-  // If the radii are too small, they grow until the arc connects the ends.
+  // If the radii are too small, the arc grows until it connects the ends of the chord.
   EXPECT_NEAR(area_of(svg_of("M0 0A1 1 0 0 1 10 0Z")), 12.5 * std::numbers::pi, .02);
 }
 
@@ -80,7 +80,7 @@ TEST(ReadSvg, ALineAfterAClosedOutlineBeginsWhereThatBegan) {
   expect_same("M1 1H5V5ZL1 9L0 9Z", "M1 1H5V5ZM1 1L1 9L0 9Z");
 }
 
-// Illustrator, older versions of Inkscape, and potrace write document types.
+// Illustrator, older versions of Inkscape, and potrace write document types into their files.
 TEST(ReadSvg, SkipsADocumentType) {
   const std::string plain = svg_of("M0 0h4v4h-4z"), head = "<?xml version=\"1.0\"?>\n<!DOCTYPE svg ";
   const std::string by_name =

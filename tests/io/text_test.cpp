@@ -31,7 +31,7 @@ TEST(Lines, OfAnEmptyTextAreNone) {
 }
 
 TEST(Lines, OfALongTextWithoutLfTakeLinearTime) {
-  const std::string text(2000000, '\r');  // with quadratic running time this would take hours
+  const std::string text(2000000, '\r');  // if the running time were quadratic, this would take hours
   EXPECT_EQ(lines_of(text).size(), text.size());
 }
 

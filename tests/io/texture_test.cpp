@@ -1,4 +1,4 @@
-// Tests pictures as textures, and the OBJ and glTF meshes that use them.
+// Tests pictures that are textures, and the OBJ and glTF meshes that use them.
 #include "io/texture.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Returns the colours of a picture of 4 x 4 pixels that are all different.
+// Returns the colour of pixel (x, y) of a picture of 4 x 4 pixels. All 16 colours are different.
 Colour colour_at(int x, int y) {
   return {static_cast<std::uint8_t>(60 * x), static_cast<std::uint8_t>(60 * y),
           static_cast<std::uint8_t>(9 * x + y)};
@@ -92,7 +92,7 @@ TEST(ObjTextures, NumbersOfVerticesThatAreNotThereTakeNoMemory) {
             "a.obj, line 4: expected an index up to 1, the number of vertices, found 4000000000");
 }
 
-// Returns the sample with texture coordinates for its four vertices, a material and a picture.
+// Returns the sample with texture coordinates for its four vertices, and with a material that uses a picture.
 std::string textured_gltf(const std::string& of_texture, const std::string& uri) {
   std::string buffer = gltf_buffer();
   for (const float value : {.125F, .125F, .375F, .125F, .125F, .375F, .875F, .875F}) buffer += raw(value);

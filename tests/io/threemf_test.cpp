@@ -1,4 +1,4 @@
-// Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from an archive.
+// Tests the XML document in 3MF files. tests/cli/archive_test.cpp reads it from an archive.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -41,8 +41,8 @@ TEST(ThreeMf, AnItemIsTheMesh) {
   EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
 }
 
-// The first triangle has a colour at each corner, the second one the colour of a material, and the others the
-// object's colour.
+// The first triangle has a colour at each corner. The second triangle has the colour of a material. The
+// others have the object's colour.
 TEST(ThreeMf, VerticesHaveTheColoursOfTheirFirstCorners) {
   std::string mesh = tetrahedron_mesh();
   mesh = replaced(mesh, "v1=\"0\" v2=\"2\" v3=\"1\"",
@@ -67,7 +67,8 @@ TEST(ThreeMf, VerticesHaveTheColoursOfTheirFirstCorners) {
   EXPECT_TRUE(colours_in("pid=\"7\" pindex=\"1\"", item).empty());
 }
 
-// A component doubles its size and moves by (1, 2, 3). Its item then exchanges x and y, which mirrors it.
+// The component doubles the size of its object and moves it by (1, 2, 3). The item then exchanges x and
+// y, which mirrors the object.
 TEST(ThreeMf, ItemsAndComponentsAreTransformed) {
   const std::string group =
       object("id=\"2\"",

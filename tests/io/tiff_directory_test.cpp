@@ -1,5 +1,5 @@
-// Tests the tags of a TIFF that decide which of its pictures counts, its orientation, and the size of its
-// pixels.
+// Tests the tags of a TIFF that say which of its pictures counts, how this picture is oriented, and how
+// large its pixels are.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,8 +13,7 @@
 namespace relievo {
 namespace {
 
-// A tag to add to whole_tiff(). The added tags follow those of whole_tiff(), and their numbers follow the
-// picture.
+// A tag to add to whole_tiff(). Added tags follow the other tags. Their numbers are stored after the picture.
 struct ExtraTag {
   std::uint16_t tag, type;
   std::uint32_t count;
@@ -39,13 +38,13 @@ std::string with_tags(const std::vector<ExtraTag>& extra) {
   return file + data + numbers;
 }
 
-// The orientation says which edges of the picture are the first row and the first column of the file, see tag
-// 274 of TIFF 6.0.
+// The orientation says which edges of the picture are the first row and the first column of the file (tag 274
+// of TIFF 6.0).
 TEST(TiffDirectory, FollowsTheOrientation) {
   const auto at = [](int x, int y) { return static_cast<float>(width * y + x); };  // stored values
   const int last_x = width - 1, last_y = height - 1;
   const std::array<std::array<float, 3>, 8> corners = {{
-      // top left, top right, bottom left
+      // the values at top left, top right and bottom left
       {at(0, 0), at(last_x, 0), at(0, last_y)},
       {at(last_x, 0), at(0, 0), at(last_x, last_y)},
       {at(last_x, last_y), at(0, last_y), at(last_x, 0)},
@@ -57,7 +56,7 @@ TEST(TiffDirectory, FollowsTheOrientation) {
   }};
   for (std::uint16_t orientation = 0; orientation <= 9; ++orientation) {
     std::string file = whole_tiff();
-    // The tag replaces SamplesPerPixel, which is then 1.
+    // The orientation tag replaces the tag SamplesPerPixel, whose default is 1.
     file = patched(patched(file, 10 + 12 * 6, std::uint16_t{274}), 10 + 12 * 6 + 8, orientation);
     const auto image = value_of(read_depth_image(bytes_of(file), "d.tif")).values;
     const bool is_turned = orientation >= 5 && orientation <= 8;
@@ -95,8 +94,8 @@ TEST(TiffDirectory, TakesTheSizeOfPixelsFromGeoTiff) {
     return ExtraTag{34735, 3, 8, shorts({1, 1, 0, 1, key, 0, 1, value})};
   };
   EXPECT_LT((pixel_size_of({scale, keys(3076, 9002)}) - .3048 * Vec2(30, 20)).norm(), 1e-12);
-  // The matrix rotates the picture by 90 degrees: the next column is 30 lower, and the next row is 20 farther
-  // to the right.
+  // The matrix rotates the picture by 90 degrees: the next column lies 30 lower, and the next row lies 20
+  // farther to the right.
   const ExtraTag matrix{34264, 12, 16, doubles({0, 20, 0, 7, -30, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 1})};
   EXPECT_EQ(pixel_size_of({matrix}), Vec2(30, 20));
   EXPECT_EQ(pixel_size_of({{33550, 11, 3, raw(1.F) + raw(2.F) + raw(0.F)}}), Vec2(0, 0)) << "not doubles";
@@ -107,18 +106,18 @@ TEST(TiffDirectory, TakesTheSizeOfPixelsFromGeoTiff) {
 // At 60 degrees north, a degree of longitude is half as long as a degree of latitude, which is 111 km.
 TEST(TiffDirectory, ConvertsDegreesAtTheMiddleRow) {
   const ExtraTag scale{33550, 12, 3, doubles({.5, .5, 0})},
-      tie{33922, 12, 6, doubles({0, 0, 0, 10, 61, 0})},  // the upper edge; the middle row is 2 pixels lower
+      tie{33922, 12, 6, doubles({0, 0, 0, 10, 61, 0})},  // 61: the upper edge, 2 pixels above the middle row
       keys{34735, 3, 8, shorts({1, 1, 0, 1, 1024, 0, 1, 2})};
   const Vec2 size = pixel_size_of({scale, tie, keys});
   EXPECT_NEAR(size.x() / size.y(), .5, 1e-12);
   EXPECT_NEAR(size.y(), .5 * 111195, 1);
 }
 
-// Returns a file with both pictures: the directory of the first refers to that of the second.
+// Returns a file with both pictures. The directory of the first picture refers to the directory of the second.
 std::string two_pictures(std::string first, const std::string& second) {
   const std::size_t end_of_tags = 10 + 12 * 10, begin = first.size();
   first = patched(first, end_of_tags, static_cast<std::uint32_t>(begin));
-  std::string moved = second.substr(8);  // without the header of a file
+  std::string moved = second.substr(8);  // the second file without its header
   const auto by = static_cast<std::uint32_t>(begin - 8);
   moved = patched(moved, 2 + 12 * 5 + 8, static_cast<std::uint32_t>(end_of_tags + 4 + by));
   return first + moved;
@@ -128,7 +127,7 @@ TEST(TiffDirectory, SkipsThumbnailsAndMasks) {
   const std::string whole = whole_tiff();
   const std::string other = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(100 + i); }));
   const auto first_value = [&](std::uint32_t kind_of_first, std::uint32_t kind_of_second) {
-    const auto with_kind = [](std::string file, std::uint32_t kind) {  // replaces SamplesPerPixel
+    const auto with_kind = [](std::string file, std::uint32_t kind) {  // replaces the tag SamplesPerPixel
       return patched(patched(file, 10 + 12 * 6, std::uint16_t{254}), 10 + 12 * 6 + 8, kind);
     };
     const std::string file = two_pictures(with_kind(whole, kind_of_first), with_kind(other, kind_of_second));

@@ -22,7 +22,7 @@ std::vector<Vec3> points_of(std::string_view text) {
 
 const std::vector<Vec3f> xz = {Vec3f::UnitX(), Vec3f::UnitZ()};
 
-// Expects that each text contains the two points, with these normals and colours.
+// Expects that each text is read as the two points, with the given normals and colours.
 void expect_two_points(const std::vector<std::string>& texts, const std::vector<Vec3f>& normals,
                        const std::vector<Colour>& colours = {}) {
   for (const std::string& text : texts) {
@@ -85,7 +85,7 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
   EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
 }
 
-// The colour of each point is a function of its position, so a wrong row, column or scale would be noticed.
+// The colour of each point is a function of the point's position. So a wrong row, column or scale would be noticed.
 TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
   std::string bytes, fractions, words;
   std::vector<Colour> expected;
@@ -144,7 +144,7 @@ TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
       {{255, 0, 10}, {0, 0, 1}});
 }
 
-// There is one block per scan, and the number of its points precedes each block.
+// Each scan is a block of lines, and a line with the number of its points precedes each block.
 TEST(Xyz, PtsMayHaveSeveralBlocks) {
   const auto file = relievo::file_of("2\n1 2 3 9\n4 5 6 9\n1\n7 8 9 9\n\n0\n", "a.pts");
   EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
@@ -154,7 +154,7 @@ TEST(Xyz, PtsMayHaveSeveralBlocks) {
             "a.pts, line 4: expected 4 columns as in line 2, found 1");
 }
 
-// Returns a table of 20 lines with `before`, three coordinates that have fractions, and `after` in each.
+// Returns a table of 20 lines. Each line consists of `before`, three coordinates with fractions, and `after`.
 std::string table(const std::function<std::string(int)>& before, const std::string& after) {
   std::string text;
   for (int i = 0; i < 20; ++i)
@@ -171,7 +171,7 @@ TEST(Xyz, NumbersOfPointsAreNoCoordinates) {
     std::string words = place;
     std::ranges::replace(words, ',', ' ');
     numbered += cat(1000 + 3 * i, " ", words, "\n");
-    profiles += cat(i / 20, " ", .5 + i % 20, " .25 ", 7 + i % 9, "\n");  // x is not the point's number
+    profiles += cat(i / 20, " ", .5 + i % 20, " .25 ", 7 + i % 9, "\n");  // x differs from the point's number
   }
   for (const std::string& text : {numbered, commas}) {
     const auto file = file_of(text);
@@ -191,7 +191,7 @@ TEST(Xyz, RowAndColumnOfAScannerAreNoCoordinates) {
     EXPECT_EQ(file.cloud.colours, plain.cloud.colours) << after;
     EXPECT_TRUE(file.format.ends_with(" after row and column")) << file.format;
   }
-  // Integer coordinates before a height with a normal or a colour must be read as coordinates.
+  // Here x and y are integers, and each line ends with a normal or a colour. The integers must be read as coordinates.
   std::string with_normals, with_colours;
   for (int i = 0; i < 20; ++i) {
     with_normals += cat(i % 5, " ", i / 5, " ", i + .5, " 0.6 0 0.8\n");

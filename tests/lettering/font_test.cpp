@@ -83,7 +83,7 @@ TEST(ShapeLine, SetsNumbersWithinArabicInTheOrderOfReading) {
   const ShapedLine both = shape_line(text_in("دا ١٢", font), .01).value();
   const ShapedLine digits = shape_line(text_in("١٢", font), .01).value();
   const ShapedLine dal = shape_line(text_in("د", font), .01).value();
-  ASSERT_EQ(both.clusters.size(), 5U);  // from left to right: 1 2, a space, alef, dal
+  ASSERT_EQ(both.clusters.size(), 5U);  // from left to right: digits 1 2, a space, alef, dal
   for (const std::size_t i : {0, 1}) {
     EXPECT_DOUBLE_EQ(both.clusters[i].advance, digits.clusters[i].advance);
     EXPECT_NEAR(box_of(both.clusters[i].outlines).size().x(), box_of(digits.clusters[i].outlines).size().x(),
@@ -93,8 +93,8 @@ TEST(ShapeLine, SetsNumbersWithinArabicInTheOrderOfReading) {
               1e-9);
 }
 
-// Returns the advances of the glyphs, in units of the font, as hb-shape computes them; empty if hb-shape is
-// missing.
+// Returns the advances of the glyphs, in units of the font, as the program hb-shape computes them. Empty if
+// hb-shape is not installed.
 std::vector<double> advances_of(const std::string& text, const std::string& font) {
   const std::string command =
       "hb-shape --no-glyph-names --output-format=json '" + font + "' '" + text + "' 2>/dev/null";
@@ -116,7 +116,7 @@ TEST_P(Scripts, HaveTheAdvancesOfHbShape) {
   double total = 0;
   for (const double advance : advances) total += advance;
   ASSERT_LE(line.clusters.size(), advances.size());
-  // The height of capitals is unknown here, so ratios are compared.
+  // The height of capitals in units of the font is unknown here, so ratios of advances are compared.
   std::size_t glyph = 0;
   for (const GlyphCluster& cluster : line.clusters) {
     double sum = 0;
@@ -153,7 +153,7 @@ TEST(ShapeLine, JoinsArabicLetters) {
   for (const GlyphCluster& cluster : joined.clusters)
     for (const Segment& s : union_boundary(cluster.outlines)) apart += (s.to - s.from).norm();
   for (const Segment& s : union_boundary(all)) together += (s.to - s.from).norm();
-  EXPECT_LT(together, apart - .1);  // strokes touch, so that no outline is left between them
+  EXPECT_LT(together, apart - .1);  // the strokes touch, so there is no outline between them
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Returns a round plate of radius 30 around (30, 30), as a polygon that contains the circle.
+// Returns the area for ornaments of a round plate with radius 30 around (30, 30). Its polygon contains the circle.
 OrnamentFrame coin() {
   OrnamentFrame frame;
   const int n = 720;
@@ -32,7 +32,7 @@ RaisedShape shape_of(const Ornament& ornament, const OrnamentFrame& frame = coin
   return ornament_shapes(std::array{ornament}, frame).value().at(0);
 }
 
-// Returns the smallest and the largest distance of a shape's corners from the centre.
+// Returns the smallest and the largest distance of a shape's corners from the plate's centre.
 std::array<double, 2> radii_of(const RaisedShape& shape) {
   std::array<double, 2> radii = {1e9, 0};
   for (const std::vector<Vec2>& outline : shape.outlines)
@@ -48,7 +48,7 @@ Vec2 middle_of(const std::vector<Vec2>& outline) {
 }
 
 TEST(OrnamentShapes, LettersStandInTheMiddleOfTheMargin) {
-  // The margin is 5 mm. Capitals of 3 mm in its middle are 1 mm from the rim.
+  // The margin is 5 mm wide. Capitals of 3 mm stand in its middle, so they are 1 mm from the rim.
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::top, "I")));
   EXPECT_NEAR(low, 26, .01);
   EXPECT_NEAR(high, 29, .02);
@@ -83,7 +83,7 @@ TEST(OrnamentShapes, LettersKeepClearOfBorders) {
 
 TEST(OrnamentShapes, LettersThatHangBelowTheLineMakeItRise) {
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::bottom, "Ip")));
-  EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a line are farther from the centre than its middle
+  EXPECT_NEAR(low - 25, 30 - high, .15);  // a straight stroke's ends are farther from the centre
   EXPECT_LT(low, 25.8);
 }
 
@@ -93,7 +93,7 @@ TEST(OrnamentShapes, ArcsAreReadFromLeftToRightAndUpright) {
     ASSERT_EQ(shape.outlines.size(), 2U);
     EXPECT_LT(middle_of(shape.outlines[0]).x(), 30);
     EXPECT_GT(middle_of(shape.outlines[1]).x(), 30);
-    // The foot of the L reaches farthest to the right.
+    // The foot of the letter L reaches farthest to the right.
     Vec2 widest = shape.outlines[1][0];
     for (const Vec2& p : shape.outlines[1])
       if (p.x() > widest.x()) widest = p;
@@ -220,7 +220,7 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   Ornament sizeless{.kind = OrnamentKind::drawing};
   sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
   EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
-  // A drawing with almost no width is as high as its size demands.
+  // The size of a drawing is its width, so this very narrow drawing would be much too high.
   Ornament thin = sizeless;
   thin.outlines = {{{0, 0}, {1, 0}, {1, 1e14}}};
   thin.size_mm = 10;

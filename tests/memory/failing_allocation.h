@@ -1,5 +1,5 @@
-// Makes allocations fail in the whole process: those of the library, of the libraries that it uses, and of
-// all threads.
+// Makes allocations fail in the whole process: allocations of the library, of the libraries that it uses,
+// and of all threads.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class FailingAllocation {
   FailingAllocation& operator=(const FailingAllocation&) = delete;
   ~FailingAllocation();
 
-  // Returns the number of allocations since this object was constructed.
+  // Returns the number of allocations since the object was constructed.
   long counted() const;
 };
 

@@ -1,8 +1,8 @@
-// Tests the studio, without HTTP and in one process, while memory runs out. If an allocation fails in any
-// thread, the request must get its usual answer or an error of kind memory. Nothing may stay busy, and the
-// same request must get its usual answer afterwards. Allocations of a few bytes do not fail here: the
-// destructors of JSON make some, and the program has a reserve for them. The environment variable ALLOCATIONS
-// is the number of allocations that fail in turn for each request; 0 means all.
+// Tests the studio, without HTTP and in one process, while memory runs out. If an allocation fails in any thread, the
+// request must get its usual answer or an error of kind memory. Nothing may stay busy, and the same request must get
+// its usual answer afterwards. Each request is repeated several times, each time with another failing allocation. The
+// environment variable ALLOCATIONS is the number of repetitions; 0 means one for every allocation. Allocations of a few
+// bytes do not fail here: the destructors of JSON objects make some, and the program keeps a reserve for these.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using test::FailingAllocation;
 
-// The answer to a request. Its text is "memory" if memory ran out.
+// The answer to a request. If memory ran out, the text is "memory".
 struct Told {
   int status = 0;
   std::string text;
@@ -38,7 +38,7 @@ const Told out_of_memory{507, "memory"};
 
 constexpr std::size_t few_bytes = 4096;
 
-// Returns the text of an answer without times and counts, which differ each time.
+// Returns the text of an answer without times and counts, which differ from one answer to the next.
 std::string without_times(const Answer& answer) {
   std::string text = answer.body;
   for (const auto& [name, value] : answer.headers) {
@@ -76,7 +76,7 @@ class Studio {
     return {answer.status, without_times(answer)};
   }
 
-  // Opens a scan, and waits until its view is prepared. Each copy of a sample counts as another scan.
+  // Opens a scan, and waits until its view is prepared. Different numbers `copy` stand for different scans.
   Told open(const std::string& sample, int copy) {
     const std::string scan = path(sample + std::to_string(copy));
     if (!fs::exists(scan)) fs::create_hard_link(path(sample), scan);
@@ -130,9 +130,8 @@ class Studio {
   std::string document_;
 };
 
-// Returns the numbers of the allocations that fail one after the other, out of the `all` allocations of a
-// request. They are evenly spaced. There are about `usual` of them, or as many as the environment variable
-// ALLOCATIONS says.
+// Returns the numbers of the allocations to fail in turn, out of the `all` allocations of a request. They are
+// evenly spaced. There are about `usual` of them, or as many as the environment variable ALLOCATIONS says.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");
   const long most = asked ? std::atol(asked) : usual;
@@ -150,7 +149,7 @@ class StudioMemory : public testing::TestWithParam<int> {
   }
   void TearDown() override { set_thread_count(0); }
 
-  // Makes a request without faults, then repeats it, each time with another failing allocation.
+  // Makes a request without faults. Then repeats it several times, each time with another failing allocation.
   template <typename Request>
   void survives(const Request& request, long usual = 12) {
     const Told whole = request();
@@ -162,11 +161,12 @@ class StudioMemory : public testing::TestWithParam<int> {
       return none.counted();
     }();
     ASSERT_GT(all, 0);
-    for (const long count : {1, 1000000})  // allocation n fails, or all allocations from n on
+    for (const long count : {1, 1000000})  // fail: allocation n, or all allocations from n on
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // Returns a request's answer while `fault` fails allocations; out_of_memory if one of the test's own fails.
+  // Returns the answer to a request while allocations fail. Returns out_of_memory if an allocation of the
+  // test itself fails.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);
@@ -271,7 +271,7 @@ TEST_P(StudioMemory, MakesPiecesAndFiles) {
     double rim = 2;
     survives(
         [&] {
-          rim = rim > 2 ? 2 : 2.5;  // forces a new piece
+          rim = rim > 2 ? 2 : 2.5;  // another rim forces a new piece
           Json request = picture_request({{"height", 2}, {"rim", rim}});
           request["format"] = format;
           request["pixels"] = 16;

@@ -1,4 +1,4 @@
-// Tests that turning does not copy the points of a scan, which may be many.
+// Tests that turning a scan does not copy its points, of which there may be many.
 #include <gtest/gtest.h>
 
 #include "memory/failing_allocation.h"
@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// Estimated normals have no sign, so each frame orients them towards the viewer.
+// The normals are estimated, so their signs are unknown, and each frame has to orient them towards
+// the viewer. That must not copy the points either.
 TEST(TurningMemory, CopiesThePointsInNoFrame) {
   Cloud cloud = *make_sample("shell", {.points = 100000});
   cloud.normals.clear();

@@ -20,10 +20,10 @@ TEST(PaperCompression, WeightIsEquation6) {
 
 TEST(PaperCompression, WeightHasTheLimitsThatThePaperNames) {
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(curvature_weight(0, .2, {infinity, 1}), 1);                      // alpha = 0 compresses nothing
+  EXPECT_EQ(curvature_weight(0, .2, {infinity, 1}), 1);                      // alpha = 0 does not compress
   EXPECT_NEAR(curvature_weight(.7, .2, {1, 0}), 1 - std::exp(-1.0), 1e-15);  // beta = 0 compresses all alike
   EXPECT_EQ(curvature_weight(0, .2, {1, 1}), 0);
-  EXPECT_EQ(curvature_weight(0, 0, {1, 1}), curvature_weight(1, 0, {1, 1}));  // no curvature anywhere
+  EXPECT_EQ(curvature_weight(0, 0, {1, 1}), curvature_weight(1, 0, {1, 1}));  // no point has curvature
 }
 
 TEST(PaperCompression, BoundaryWeightIsEquation7) {
@@ -31,7 +31,7 @@ TEST(PaperCompression, BoundaryWeightIsEquation7) {
   EXPECT_NEAR(boundary_weight(2, 2), 1 - std::exp(-1.0), 1e-15);
 }
 
-// The slope is perpendicular to the normal of equation (5): n~ . (1, 0, dz/dx) = 0, and likewise for y.
+// By equation (5) the slope is perpendicular to the compressed normal n~: n~ . (1, 0, dz/dx) = 0, and likewise for y.
 TEST(PaperCompression, SlopeIsThatOfEquation5) {
   const Vec3 normal = Vec3(.3, -.5, .6).normalized();
   for (const double w : {0.0, .4, 1.0}) {

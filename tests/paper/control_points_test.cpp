@@ -15,7 +15,7 @@ struct Chosen {
   double rho = std::sqrt(1.0 / 1000);
 };
 
-// No chosen point is in the region of another one, and every point is in a region.
+// No chosen point may be in the region of another one, and every point must be in a region.
 TEST(PaperControlPoints, AreGrownByTheRadiusOfSection42) {
   Chosen c;
   for (std::size_t i = 500; i < 600; ++i) c.is_boundary[i] = 1;

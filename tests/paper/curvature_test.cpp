@@ -17,8 +17,8 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-// Returns the mean and the standard deviation of the curvature of all points. rho follows from the area of
-// the shape.
+// Returns the mean and the standard deviation of the curvature of all points. rho is computed from the
+// area of the shape.
 Statistics curvature_of(const Cloud& cloud, double area) {
   const double n = static_cast<double>(cloud.size());
   std::vector<Index> all(cloud.size());
@@ -31,8 +31,8 @@ Statistics curvature_of(const Cloud& cloud, double area) {
   return result;
 }
 
-// The moving-least-squares surface of a sphere lies inside the sphere, so its curvature is slightly larger.
-// Since the points are random, it differs from point to point.
+// The moving-least-squares surface of a sphere lies inside the sphere, so its curvature is slightly larger
+// than that of the sphere. The points are random, so the curvature differs from point to point.
 TEST(PaperCurvature, OfASphereIsThatOfItsRadius) {
   const double area = 16 * std::numbers::pi;
   const Statistics k = curvature_of(test::sphere(20000, 2), area);
@@ -58,8 +58,8 @@ TEST(PaperCurvature, OfAPlaneIsZero) {
   EXPECT_EQ(k.deviation, 0);
 }
 
-// Normals in single precision cause curvatures of about 1e-8 / rho on a tilted plane. They must be set to 0,
-// as detail would amplify them.
+// On a tilted plane, normals in single precision cause curvatures of about 1e-8 / rho. These must be set to
+// 0, because detail would amplify them.
 TEST(PaperCurvature, OfALeaningPlaneIsZero) {
   const Vec3 normal = Vec3(.3, -.4, .7).normalized();
   Cloud cloud;
@@ -70,7 +70,7 @@ TEST(PaperCurvature, OfALeaningPlaneIsZero) {
   EXPECT_EQ(k.deviation, 0);
 }
 
-// Computes exp(x y + z) at (1, 2, 0.5) by the rules of jets, and in closed form.
+// Computes the derivatives of exp(x y + z) at (1, 2, 0.5) by the rules of jets, and compares them with closed forms.
 TEST(PaperJets, FollowTheRulesOfDerivatives) {
   const Vec3 p(1, 2, .5);
   const auto coordinate = [&](Eigen::Index i) { return Jet{p[i], Vec3::Unit(i), Mat3::Zero()}; };

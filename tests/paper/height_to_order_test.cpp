@@ -5,8 +5,7 @@
 namespace relievo::paper {
 namespace {
 
-// Returns the height of a relief whose points all have |k| = delta, and whose height is 1 without
-// compression.
+// Returns the height of a relief in which |k| = delta at all points. Without compression its height is 1.
 double height_of(double alpha, double beta) {
   return 1 - std::exp(-std::pow(alpha, -beta));
 }
@@ -26,7 +25,8 @@ TEST(PaperHeightToOrder, IsMetToOnePercent) {
   }
 }
 
-// With half of the beta that was found, no alpha from 0.001 to the largest number gives the height.
+// The beta that the search finds is the smallest: with half of it, no alpha from 0.001 to the
+// largest double gives the height.
 TEST(PaperHeightToOrder, HasTheSmallestBeta) {
   for (const double wanted : {.02, .3, .9}) {
     const double beta = adjust_to_height(wanted, height_of).beta;

@@ -14,8 +14,8 @@
 namespace relievo::paper {
 namespace {
 
-// Solves equation (9) as printed: with one equation for each boundary point, and one for each pair of a point
-// and one of its six nearest points, which are found by sorting.
+// Solves equation (9) as printed in the paper. The system has one equation for each boundary point, and one
+// for each pair of a point and one of its six nearest points. These are found by sorting.
 Eigen::VectorXd dense_heights(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& is_boundary,
                               const std::vector<Vec2f>& slopes) {
   const auto n = static_cast<Eigen::Index>(points.size());
@@ -60,7 +60,7 @@ TEST(PaperHeights, AreTheLeastSquaresOfEquation9) {
     EXPECT_NEAR(heights[i], expected(static_cast<Eigen::Index>(i)), 1e-5);
 }
 
-// There are two distant clusters. One of them has no boundary point, so its first point is put on the base.
+// There are two distant clusters of points. One of them has no boundary point, so its first point gets height 0.
 TEST(PaperHeights, AreDefiniteWithoutBoundary) {
   std::vector<Vec2> points = random_points(40);
   for (std::size_t i = 20; i < 40; ++i) points[i].x() += 100;

@@ -16,8 +16,8 @@ float dome(const Vec2& p) {
 struct Mapped {
   std::vector<Vec2> control = random_points(400, 2), visible = random_points(3000, 5);
 
-  // Returns the heights at the visible points if the heights of the control points are ratio(p) times the
-  // dome.
+  // Returns the mapped heights at the visible points. At the control points the compressed heights are
+  // ratio(p) times the uncompressed ones, which form a dome.
   template <typename F>
   std::vector<float> heights(F&& ratio) const {
     HeightMapping::Uncompressed uncompressed;
@@ -32,8 +32,8 @@ struct Mapped {
   }
 };
 
-// For heights below 2 % of the largest, the ratio is not well defined. Here the lowest height is 40 % of the
-// largest, so this causes an error of only 0.25 %.
+// Where heights are below 2 % of the largest height, the ratio is not well defined, so it is damped. Here
+// the lowest height is 40 % of the largest one, so damping causes an error of only 0.25 %.
 TEST(PaperMapping, KeepsARatioThatIsTheSameEverywhere) {
   const Mapped m;
   const std::vector<float> mapped = m.heights([](const Vec2&) { return .3F; });
@@ -54,8 +54,8 @@ TEST(PaperMapping, CarriesASmoothRatio) {
   EXPECT_LT(std::sqrt(sum), .02);
 }
 
-// The ratio is multiplied by z0^2 / (z0^2 + f^2), where f is 2 % of the largest height, because it is
-// undefined at z0 = 0. So heights are 0 wherever z0 is 0, and nowhere wrong by more than 10 % of the largest.
+// Because the ratio is undefined at z0 = 0, it is multiplied by z0^2 / (z0^2 + f^2), where f is 2 % of the largest
+// height. So the result must be 0 wherever z0 is 0, and must nowhere be wrong by more than 10 % of the largest height.
 TEST(PaperMapping, PassesZeroWhereTheUncompressedHeightsDo) {
   const Mapped m;
   const auto slope = [](const Vec2& p) { return static_cast<float>(p.x() - .5); };

@@ -26,8 +26,8 @@ Cloud ball_before_a_sheet(double distance = 2) {
   return test::joined(test::sheet(24000, 1.5, 0), test::moved(test::sphere(12000, .7), Vec3(0, 0, distance)));
 }
 
-// Section 4.1: large depth jumps vanish. Only normals matter, so the relief does not depend on the distance
-// of the ball from the sheet.
+// Section 4.1 of the paper: large depth jumps vanish. Only normals matter, so the relief does not depend on
+// the distance between ball and sheet.
 TEST(PaperRelief, DoesNotDependOnTheHeightOfDepthJumps) {
   const ReliefModel near = prepared(ball_before_a_sheet(2)), far = prepared(ball_before_a_sheet(20));
   ASSERT_EQ(near.surface().points.size(), far.surface().points.size());
@@ -61,7 +61,7 @@ TEST(PaperRelief, IsFlatWithoutWeightAndLiesOnTheBaseAtItsBoundary) {
     }
 }
 
-// The second equation (9): gamma changes the height of each inner point by gamma k h.
+// The second equation (9) of the paper changes the height of each inner point by gamma k h.
 TEST(PaperRelief, DetailIsProportionalToCurvature) {
   const ReliefModel model = prepared(ball_before_a_sheet());
   const Relief plain = model.make({{1, .01}, 0}), detailed = model.make({{1, .01}, .1});
@@ -72,8 +72,8 @@ TEST(PaperRelief, DetailIsProportionalToCurvature) {
     }
 }
 
-// With beta > 1, the exact relief is not a multiple of the uncompressed one. The relief of control points
-// differs from it less than half as much as the best multiple does.
+// If beta > 1, the exact relief is not a multiple of the uncompressed one. The relief from control points
+// must differ from the exact relief less than half as much as the best multiple does.
 TEST(PaperRelief, OfControlPointsIsCloseToTheExactOne) {
   const Cloud cloud = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(4 * x) * std::cos(3 * y); },
@@ -120,7 +120,7 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
 
     options.height = .1;
     options.shape.is_beta_free = true;
-    for (int again = 0; again < 2; ++again) {  // in the second pass, the coefficients are known already
+    for (int again = 0; again < 2; ++again) {  // in the second pass, the coefficients are already known
       maker.make(options, frame);
       EXPECT_TRUE(frame.is_height_met);
       EXPECT_NEAR(frame.height, .1, 1e-6);
@@ -131,8 +131,8 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
   }
 }
 
-// Section 3.5: the stages of three frames run at the same time, and give the same result as frames made one
-// after the other.
+// Section 3.5 of the paper: the stages of three frames run at the same time. The result must be the same as
+// that of frames made one after the other.
 TEST(PaperRelief, OneStepAheadHasTheSameBits) {
   const std::array shapes{Shape{{1, .2}, .05}, Shape{{.5, 1}, 0}, Shape{{.7, 0}, .1}, Shape{{.2, 3}, .02}};
   for (const Mode mode : {Mode::exact, Mode::subspace}) {

@@ -17,7 +17,7 @@ Result<Surface> surface_of(const Cloud& cloud, const View& view = View().for_pap
   return paper::find_surface(*measured, view);
 }
 
-// In each of 36 equal sectors, the rim has a boundary point.
+// There must be a boundary point in each of 36 equal sectors of the rim.
 TEST(PaperSurface, OfABallIsItsFrontWithTheRimAsBoundary) {
   const Surface surface = value_of(surface_of(test::sphere(20000, 1)));
   EXPECT_EQ(surface.visible_points, surface.points.size());
@@ -37,7 +37,8 @@ TEST(PaperSurface, OfABallIsItsFrontWithTheRimAsBoundary) {
   EXPECT_EQ(sectors.size(), 36U);
 }
 
-// The edge of a sheet in front of another sheet is not a boundary: its points have neighbours on both sides.
+// The edge of a sheet in front of another sheet is not part of the boundary, because its points have
+// neighbours on both sides.
 TEST(PaperSurface, HasNoBoundaryAtDepthJumps) {
   const Surface surface =
       value_of(surface_of(test::joined(test::sheet(9000, 1, 0), test::sheet(2000, .45, .5, 9))));
@@ -50,7 +51,7 @@ TEST(PaperSurface, HasNoBoundaryAtDepthJumps) {
 TEST(PaperSurface, RefusesWhatShowsNoArea) {
   const auto error_of = [](const Cloud& cloud) { return surface_of(cloud).error(); };
   EXPECT_EQ(error_of(test::inside_out(test::sheet(500, 1, 0))).kind, ErrorKind::geometry);
-  Cloud line;  // with one more point beside it, which faces away
+  Cloud line;  // a line of points, and one point beside it that faces away
   for (int i = 0; i < 50; ++i) test::add(line, Vec3(i, 0, 0), Vec3::UnitZ());
   test::add(line, Vec3(20, 30, -9), -Vec3::UnitZ());
   EXPECT_EQ(error_of(line).kind, ErrorKind::geometry);

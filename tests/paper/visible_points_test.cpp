@@ -9,8 +9,8 @@
 namespace relievo::paper {
 namespace {
 
-// Applies the rule of section 3.2 by brute force: for each point, tests for all other points whether they are
-// in its cell.
+// Applies the rule of section 3.2 of the paper by brute force. For each point, all other points are tested
+// for whether they are in its cell.
 TEST(PaperVisiblePoints, AreThoseNearTheHighestPointOfTheirCell) {
   const Cloud cloud = test::sphere(1500, 1);
   const double rho = .06;

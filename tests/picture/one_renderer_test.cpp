@@ -1,5 +1,5 @@
-// Tests that previews of finished solids and live pictures of frames come from the same renderer: the same
-// solid with the same view, light and material gives the same pixels.
+// Tests that previews of finished solids and live pictures of frames come from the same renderer. The same
+// solid must give the same pixels if view, light and material are the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr double mm_per_unit = 32;
 
-// A model, the heights and normals of a relief at its points, and the finished solid, whose first points are
-// the points of the relief.
+// A model, a relief of it (heights and normals at its points), and the finished solid. The first points of
+// the solid are the points of the relief.
 struct Bodies {
   std::shared_ptr<const ReliefModel> model =
       std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
@@ -99,7 +99,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
       }
 }
 
-// A coin whose rim has a bevel.
+// Returns the plate of a coin whose rim has a bevel.
 PlateOptions coin_of(double rim_mm) {
   PlateOptions plate;
   plate.outline = Outline::circle;
@@ -140,7 +140,7 @@ PlateOptions in_form(PlateOptions plate, Form form) {
   return plate;
 }
 
-// Returns plates with each base, as they are, mirrored and as dies. Those with a dome are coins.
+// Returns plates with each base: plain ones, mirrored ones, and dies. The plates with a dome are coins.
 std::vector<NamedPlate> plates_of_all_kinds() {
   std::vector<NamedPlate> plates{{"coin", coin_of(2)}};
   for (const Form form : {Form::relief, Form::mirror, Form::die}) {
@@ -183,7 +183,8 @@ Result<Solid> solid_on(const PlateOptions& plate) {
   return plate.wrap.kind == WrapKind::none ? std::move(solid) : wrap_plate(solid, plate);
 }
 
-// A solid on a curved base has the normals of its triangles, a frame those of relief and base.
+// On a curved base, a solid has the normals of its triangles, a frame those of relief and base
+// together. Pictures of both must look alike.
 TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
   FrameRenderer renderer(bodies().model);
   for (const auto& [name, plate] : plates_of_all_kinds()) {
@@ -230,7 +231,7 @@ TEST(OneRenderer, RefusesAWrapAsTheSolidThatIsMadeOfTheFrame) {
   }
 }
 
-// If the rim gets another height, a quick picture keeps the bevel; a fine one has the new bevel, too.
+// If the height of the rim changes, a quick picture keeps the old bevel; a fine picture gets the new bevel.
 TEST(OneRenderer, FollowsTheHeightOfARim) {
   FrameRenderer used(bodies().model), fresh(bodies().model);
   const RenderOptions quick = options_for(Material::plaster, false, 40),
@@ -251,7 +252,7 @@ TEST(OneRenderer, FollowsTheHeightOfARim) {
   EXPECT_EQ(refused.error().input, "rim-bevel");
 }
 
-// The renderer's cache must not change pictures. An impossible size gives no picture.
+// The renderer's cache must not change pictures. An impossible size must give no picture.
 TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));
   Picture first, other, again;
@@ -266,8 +267,8 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   EXPECT_TRUE(other.image.pixels.empty());
 }
 
-// Apart from the wall behind the plate, the front view of a preview equals the studio's picture with this
-// size and zoom.
+// Apart from the background, which is a wall, the front view of a preview equals the studio's picture
+// with the same size and zoom.
 TEST(OneRenderer, PreviewShowsTheLivePicture) {
   const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
   RenderOptions options = options_for(Material::plaster, true, 0);
@@ -291,8 +292,8 @@ TEST(OneRenderer, PreviewShowsTheLivePicture) {
         if (const int by = std::abs(live.image.pixels[i + c] - preview.pixels[preview.index(x, y) + c]))
           ++different, largest = std::max(largest, by);
     }
-  // The zoom differs from the preview's scale in its last digit, so a colour between two levels may be
-  // rounded differently.
+  // The zoom differs from the preview's scale in the last digit, so a value between two grey levels
+  // may be rounded differently.
   EXPECT_LE(largest, 1);
   EXPECT_LT(different, opaque / 1000);
   EXPECT_GT(opaque, 60000U);

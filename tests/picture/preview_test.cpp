@@ -17,7 +17,7 @@ namespace {
 
 using test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
 
-// Returns the front as a picture of 16-bit grey levels.
+// Returns the heights of the front as an image of 16-bit grey levels.
 HeightMap map_of(const Solid& solid, int longer_side_px) {
   return grey_levels(make_heights_mm(solid, {.longer_side_px = longer_side_px}));
 }
@@ -51,7 +51,7 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
 }
 
 TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
-  // The groove and the ridge are wide enough to contain centres of pixels.
+  // The groove and the ridge are wide enough that they contain centres of pixels.
   const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
   const HeightMap map = map_of(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
   const auto [low, high] = std::ranges::minmax(map.image.pixels);
@@ -76,7 +76,7 @@ TEST(HeightMap, BeginsAtTheGroundIfAsked) {
   EXPECT_NEAR(down.mm_per_grey, 4. / 255, 1e-9);
 }
 
-// The valley in the relief is lower than the ground, and the centre of the relief is as high as the ground.
+// The valley in the relief is lower than the ground. The centre of the relief is as high as the ground.
 TEST(HeightMap, OfTheReliefAloneHasTheGroundBesideIt) {
   const auto ring = [](double x, double y) { return std::hypot(x - 10, y - 10) < 4 ? -2. : 1.; };
   const Solid solid = plate_of(pyramid_front({{0, 0}, {20, 0}, {10, 20}}, -3), {5, 3});
@@ -113,7 +113,7 @@ TEST(HeightMap, NothingToDrawGivesNoPixels) {
 
 // ------------------------------------------------------------------------------------------------- preview
 
-// Returns the height of a hemisphere of radius 15 at the centre of a plate of 60 x 60.
+// Returns the height at (x, y) of a hemisphere of radius 15 at the centre of a plate of 60 x 60.
 double hemisphere(double x, double y) {
   return std::sqrt(std::max(0.0, 225 - (x - 25) * (x - 25) - (y - 25) * (y - 25)));
 }
@@ -122,8 +122,8 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Returns the mean of the three channels at the point (x, y) in the front view of a plate of the given size.
-// All lengths are in millimetres.
+// Finds points of the plate in the front view of a preview. Returns the mean of the three channels at (x,
+// y). All lengths are in millimetres.
 struct FrontView {
   const Image8& image;
   double width_mm, height_mm;
@@ -198,7 +198,8 @@ TEST(Preview, NothingIsClipped) {
 }
 
 TEST(Preview, AShadowFallsAwayFromTheLight) {
-  // The ground beside a tower of width 10 mm and height 12 mm is compared on all sides at the same distance.
+  // A tower of width 10 mm and height 12 mm stands on the ground. The ground beside it is compared on all
+  // sides, at the same distance.
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };
@@ -219,8 +220,8 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
   EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
 }
 
-// With the lamp exactly in front, exactly behind, or without a lamp, no side is brighter than the opposite
-// one.
+// If the lamp is exactly in front or exactly behind, or if there is no lamp, no side may be brighter than
+// the opposite one.
 TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
   for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {
@@ -254,8 +255,8 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
   }
 }
 
-// Shadows are computed in the front view, where the sides of a half cylinder are seen almost edge on: along
-// each edge, strips of 2 % of its width lean by 74 degrees or more. So these strips have no shadows.
+// Shadows are computed in the front view, in which the sides of a half cylinder are seen almost edge on. Strips along
+// both edges, each 2 % of the width, are tilted by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
   ReliefOptions options;
   options.height_mm = 4;

@@ -6,8 +6,8 @@
 namespace relievo {
 namespace {
 
-// Returns the reach of a tool on a front of 20 mm x 10 mm, in samples of 1 mm. On the right half, the tool
-// leaves 1 mm of material in the top row and 0.1 mm below.
+// Returns the reach of a tool on a front of 20 mm x 10 mm, in samples of 1 mm. On the left half the tool
+// leaves nothing. On the right half it leaves 1 mm of material in the top row, and 0.1 mm in the other rows.
 std::shared_ptr<const ToolReach> reach() {
   ToolReach reach;
   reach.mm_per_sample = 1;

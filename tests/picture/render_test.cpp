@@ -11,13 +11,13 @@
 namespace relievo {
 namespace {
 
-// Returns the model of a hemisphere that is 2 wide and 2 high in the view plane.
+// Returns the model of a hemisphere, which is 2 wide and 2 high in the view plane.
 std::shared_ptr<const ReliefModel> ball() {
   static const auto model = std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   return model;
 }
 
-// A relief of the ball. field() makes one from a function of the position.
+// Heights and normals of a relief of the ball. field() computes them from a function of the position.
 struct Field {
   std::vector<float> heights;
   std::vector<Vec3f> normals;
@@ -148,8 +148,8 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
-// If the camera is rotated, all triangles are drawn again; in the front view, they are looked up. For a
-// camera that is hardly rotated, both must look the same.
+// If the camera is rotated, all triangles are drawn again. In the front view, cached triangles are
+// looked up instead. For a hardly rotated camera, both must look the same.
 TEST(Render, OrbitBeginsAtTheFront) {
   RenderOptions turned = small();
   turned.camera.pitch_deg = 1e-7;
@@ -203,7 +203,7 @@ TEST(Render, OrbitsAtTheScaleOfTheFrontAsLongAsThePlateFits) {
   }
 }
 
-// `pan` is the point of the plate at the centre of the picture, so the plate moves in the opposite direction.
+// `pan` is the point of the plate at the centre of the picture. So the plate moves in the opposite direction.
 // Rows of the picture run downwards.
 TEST(Render, PansByMillimetresOfThePlate) {
   RenderOptions options = small();
@@ -263,7 +263,7 @@ TEST(Render, ShowsTheModelItself) {
   EXPECT_EQ(original.normals.size(), original.heights.size());
 }
 
-// The tint goes from blue to orange on the figure, and leaves the plate around it as it is.
+// The tint must go from blue to orange on the figure, and must not change the plate around it.
 TEST(Render, TintsTheFigureAlone) {
   FrameRenderer renderer(ball());
   Shown shown = renderer.original();

@@ -73,7 +73,7 @@ TEST(Shading, NothingIsClippedOnLevelGround) {
       }
 }
 
-// The pattern of patina repeats every 64 mm, also across the centre of the plate.
+// The pattern of patina repeats every 64 mm, without a seam at the centre of the plate.
 TEST(Shading, PatinaHasNoSeamInTheMiddle) {
   Lit place = level_at(0, 0), again = place;
   for (const float x : {-1.F, 0.F, 5.5F, -.95F, 5.47F}) {

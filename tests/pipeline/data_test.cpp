@@ -1,4 +1,4 @@
-// Checks that every available real scan becomes a valid solid of the requested height.
+// Checks that every real scan that is available becomes a valid solid of the requested height.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 
 using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
 
-// Returns the scans' paths within the folder; "none" if there are no scans, so that one test reports that it
-// was skipped.
+// Returns the paths of the scans in the folder. If there are no scans, returns "none", so that one test
+// reports that it was skipped.
 std::vector<std::string> scan_names() {
   std::vector<std::string> names;
   for (const fs::path& folder : {shared_data(), shared_data() / "original"})
@@ -61,8 +61,7 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
   EXPECT_GT(made.report.visible_points, .2 * static_cast<double>(file.cloud.size()));
-  // Only two of these scans show a table. Statues on plinths, busts, and depth images of a single figure do
-  // not.
+  // Only two of these scans show a table. Statues on plinths, busts, and depth images of single figures show none.
   const bool has_table =
       path.filename() == "kinect_milk_table.pcd" || path.filename() == "figurines_scene.pcd";
   EXPECT_EQ(made.report.plane.has_value(), has_table);
@@ -72,8 +71,8 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   }
 }
 
-// One scan shows three cartons on a wide table; its farthest corner is bent up by 3 tolerances because of
-// camera errors. The other scan shows figurines on a board.
+// One scan shows three cartons on a wide table. The table's farthest corner seems to be bent up by 3
+// tolerances, because of camera errors. The other scan shows figurines on a board.
 TEST(Data, TablesAreLeftOut) {
   for (const auto& [name, share] :
        {std::pair("original/kinect_milk_table.pcd", .77), std::pair("original/figurines_scene.pcd", .25)}) {
@@ -93,9 +92,9 @@ TEST(Data, TablesAreLeftOut) {
   }
 }
 
-// The list that comes with the scans states their front sides. Most face +Z with Y upwards; two face -Y with
-// Z upwards. For the bimba without normals, the stated front is between +X and +Z. best_side() tries only
-// sides along the axes and finds +Z, which is 45 degrees away.
+// The list that comes with the scans states their front sides. Most of them face +Z, with Y upwards; two
+// face -Y, with Z upwards. For the scan "bimba" without normals, the stated front is between +X and +Z.
+// best_side() tries only sides along the axes, so it finds +Z, which is 45 degrees off.
 TEST_P(RealScan, IsShownFromItsToldFront) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");

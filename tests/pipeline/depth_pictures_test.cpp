@@ -1,4 +1,5 @@
-// Tests the reliefs of depth pictures in many conventions against those of the clouds from which they were drawn.
+// Draws depth pictures of clouds in many conventions. Compares the reliefs of these pictures with the reliefs of the
+// clouds.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,7 +28,7 @@ MadeRelief relief_of(Cloud cloud) {
   return value_of(make_relief(std::move(cloud), options));
 }
 
-// Returns the relief's heights at the centres of the pixels of the picture from which it was made, in mm.
+// Returns the relief's heights in mm, at the centres of the pixels of the picture from which it was made.
 Image<double> heights_mm(const MadeRelief& made, int side) {
   constexpr double mm_per_pixel = .2;
   const HeightsMm map = make_heights_mm(made.solid, {.mm_per_pixel = mm_per_pixel, .zero = MapZero::ground});
@@ -48,8 +49,8 @@ Image<double> heights_mm(const MadeRelief& made, int side) {
   return heights;
 }
 
-// Returns the relief in the light of a lamp, at half the picture's resolution, because a picture has no details smaller
-// than two of its pixels.
+// Returns a picture of the relief under a lamp. It has half the resolution of the depth picture, which has no details
+// smaller than two of its pixels.
 Image8 shading_of(const MadeRelief& made, int side) {
   const Image<double> heights = heights_mm(made, side);
   const Vec3 lamp = Vec3(-1, 1, 1.5).normalized();
@@ -68,12 +69,12 @@ Image8 shading_of(const MadeRelief& made, int side) {
   return shading;
 }
 
-// A cloud as drawn in a camera's picture, with the relief of the cloud itself.
+// The heights of a cloud as a camera's picture shows them, and the relief of the cloud itself.
 struct Figure {
   Image<double> heights;
   double range_px = 0;
   Image8 shading;
-  double exact_similarity = 0;  // between the reliefs of the picture's exact heights and of the cloud
+  double exact_similarity = 0;  // similarity of the reliefs of cloud and exact heights
 
   double similarity_of(Cloud read) const {
     return test::structural_similarity(shading_of(relief_of(std::move(read)), heights.width), shading);
@@ -97,8 +98,8 @@ Figure figure_of(const Cloud& cloud, const PictureCamera& camera) {
 struct Judgement {
   double share_used = 0;  // share of the figure's pixels that are used
   int farthest_px = 0;    // largest distance between used pixels and pixels of the figure, both ways
-  int crumbs = 0;         // number of used parts smaller than 0.5 %, minus that of the figure
-  double similarity = 0;  // between the reliefs of the read picture and of the cloud
+  int crumbs = 0;         // number of small parts (below 0.5 %), less that of the figure
+  double similarity = 0;  // between the relief of the read picture and that of the cloud
 };
 
 Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigure& beside) {
@@ -108,7 +109,7 @@ Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigur
   options.range = figure.range_px / side;
   if (how.is_pinhole && how.kind == DepthValues::depth) {
     options.camera = PictureCamera{side, true}.as_depth_camera();
-    if (beside.wall_m > 0) options.background = Removal::drop;  // with a camera, walls are kept by default
+    if (beside.wall_m > 0) options.background = Removal::drop;  // the default with a camera keeps walls
   }
   DepthCloud read = value_of(depth_cloud(test::depth_picture(figure.heights, how, beside), options));
   test::Mask drawn = filled_image(side, side, std::uint8_t{0}), used = drawn;
@@ -137,15 +138,15 @@ std::vector<DepthStorage> storages() {
           {"disparity of 8 bits", inverse, 1, [](double d) { return std::round(200 / d); }, true}};
 }
 
-// Returns values that can mark missing depths in this type.
+// Returns values that can mark missing depths in a picture of this storage.
 std::vector<float> markers_of(const DepthStorage& how) {
   const float most = how.name.contains("8 bits") ? 255.F : 65535.F;
-  if (how.step > 0) return {0, most, nan};  // NaN where the picture is transparent
+  if (how.step > 0) return {0, most, nan};  // NaN stands for transparent pixels
   return how.kind == DepthValues::depth ? std::vector<float>{0, inf, nan, 1e10F} : std::vector<float>{0, nan};
 }
 
-// Makes pictures of a cloud, numbered from `first`, and judges how they are read. The number determines the
-// storage, the wall and the marker.
+// Makes pictures of a cloud, and judges how they are read. The pictures are numbered from `first`. The
+// number of a picture determines its storage, wall and marker.
 void judge_pictures(const Cloud& cloud, int side, int first, int count) {
   std::map<bool, Figure> figures;
   for (int i = first; i < first + count; ++i) {

@@ -1,5 +1,4 @@
-// Tests that a job and its live model make the same solids, frames and pictures as the functions that they
-// call.
+// Tests a job and its live model. They must make the same solids, frames and pictures as the functions that they call.
 #include "relievo/job.h"
 
 #include <gtest/gtest.h>

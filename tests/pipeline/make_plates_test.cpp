@@ -29,7 +29,7 @@ ReliefOptions coin_options() {
   return options;
 }
 
-// Returns the height of the highest corner of the plate's edge above the ground.
+// Returns the height above the ground of the highest corner of the plate's edge.
 double rim_height(const MadeRelief& relief) {
   const Solid& solid = relief.solid;
   const Box box = Box::of(solid.points);

@@ -76,8 +76,8 @@ TEST(MakeRelief, SolvesForControlPointsInProportionToTheNumberAsked) {
   }
 }
 
-// Expects that a relief on a plate of that size is as large as the margin allows: one point touches the
-// margin, and no point is beyond it.
+// Expects that the relief is as large as the margin allows, on a plate of size `size`: a relief that is
+// 0.1 % wider must be refused.
 void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
   const auto made = value_of(make_relief(model, options));
   EXPECT_EQ(check_solid(made.solid), "");
@@ -87,14 +87,14 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
   expect_error(make_relief(model, larger), "width: expected ");
-  // A plate that is fitted around a relief of this width has the same size as `size` in one direction, and is
-  // not larger in the other.
+  // `free` lets the plate adapt to a relief of this width. This plate must have the same size as `size` in
+  // one direction, and must not be larger in the other.
   ReliefOptions free = options;
   free.width_mm = width;
   free.diameter_mm.reset();
   free.plate_mm.reset();
   const Vec2 share = Box::of(make_relief(model, free)->solid.points).size().head<2>().cwiseQuotient(size);
-  if (options.outline == Outline::ellipse) return;  // the smaller ellipse has another ratio of axes
+  if (options.outline == Outline::ellipse) return;  // the plate that adapts has another ratio of axes
   EXPECT_NEAR(share.maxCoeff(), 1, 1e-3) << name;
 }
 
@@ -118,7 +118,7 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   const auto made = make_relief(*model, options);
   EXPECT_NEAR(Box::of(made->solid.points).size().x(), 80, 1e-9);
   EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
-  options.form = Form::die;  // around the rim's groove is a border, as wide as the rim and its bevel together
+  options.form = Form::die;  // a die has a border around the rim's groove, as wide as rim and bevel
   const Vec3 die = Box::of(make_relief(*model, options)->solid.points).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
@@ -139,7 +139,7 @@ std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   return heights;
 }
 
-// The figure is scanned only from -Y, with Z upwards, so it has no other sides.
+// The figure is scanned only from -Y, with Z upwards. All other sides are empty.
 TEST(MakeRelief, ShowsTheBestSideWhereThatIsAskedFor) {
   Cloud standing;
   const Cloud whole = figure();
@@ -197,7 +197,7 @@ TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   EXPECT_FALSE(paper->report.height_usual_mm);
 }
 
-// The dome is too shallow for the usual height of a twentieth of its width, with or without a draft angle.
+// The dome is too shallow for the default height, a twentieth of its width, with or without a draft angle.
 TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   Cloud shallow = test::sphere(20000, 1);
   for (Vec3& p : shallow.points) p.z() *= .02;
@@ -226,7 +226,7 @@ TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   EXPECT_LT(highest, .9 * free);
   options.height_mm = .999 * highest;
   EXPECT_NEAR(value_of(make_relief(*model, options)).report.height_mm, .999 * highest, 1e-3);
-  EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height was requested
+  EXPECT_EQ(*highest_with_draft(*model, options), highest);  // it does not depend on the requested height
   options.height_mm = 1.001 * highest;
   expect_error(make_relief(*model, options), "draft: expected ");
 }
@@ -277,7 +277,7 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
   }
 }
 
-// The relief's bounding box moves by the whole shift, and stays inside the margin.
+// The relief's bounding box must move by the whole shift, and stay inside the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
   ReliefOptions options;
@@ -322,8 +322,8 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
-// Two level sheets, one in front of the other, have no slopes. The paper's method gives them no height; by
-// default the step between them gets all of it.
+// Two level sheets, one in front of the other, have no slopes. So the paper's method gives the relief no
+// height. By default the step between the sheets gets all of the height.
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
@@ -366,8 +366,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
 }
 
-// The bits must be the same with and without the processor's wide vector instructions. For other compilers
-// and targets, scripts/compare-builds allows differences of 1e-5 of the height.
+// The bits must not depend on whether the processor's wide vector instructions are used. For other
+// compilers and targets, scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
     ReliefOptions options;
@@ -383,7 +383,7 @@ TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
   ReliefOptions options;
   options.saturation = 1;
   options.tone = *parse_tone_curve("0.5,0");
-  // The curve flattens all slopes, which is refused.
+  // This tone curve flattens all slopes, so making the relief must fail.
   expect_error(make_relief(figure(), options), ErrorKind::geometry);
 }
 

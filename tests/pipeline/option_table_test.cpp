@@ -70,7 +70,7 @@ TEST(ParseOptions, EachBecomesItsValue) {
   EXPECT_EQ(others->outline, Outline::circle);
 }
 
-// Returns whether any text is a value of the option: a text to be set, or the name of a file.
+// Returns whether every text is a valid value of the option. Such values are texts to be set, and names of files.
 bool is_any_text(const OptionRow& option) {
   return option.name == "text" || option.name == "font" || option.name == "ornaments";
 }
@@ -139,7 +139,7 @@ TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
   }
 }
 
-// Every number in NumericOptions must be in the table, so that all numbers that users set are checked.
+// Every number in NumericOptions must have a row in the table, so that all numbers that users set are checked.
 TEST(OptionTable, HasARowForEachNumber) {
   std::size_t bytes = 0;
   for (const OptionRow& option : option_table()) {

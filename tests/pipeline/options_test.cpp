@@ -66,7 +66,7 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   options.diameter_mm = 80;
   options.outline = Outline::circle;
   EXPECT_EQ(message_of(check(options)), "no error");
-  options.rim_mm = 39;  // with a margin of 1 mm
+  options.rim_mm = 39;  // the margin is 1 mm wide
   EXPECT_EQ(message_of(check(options)),
             "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
   options = {};

@@ -50,7 +50,7 @@ void expect_near(const OrnamentPlace& a, const OrnamentPlace& b, double within) 
   }
 }
 
-// Expects that the solid has points at the corners of the ornaments' outlines.
+// Expects that the corners of the ornaments' outlines are points of the solid.
 void expect_in_solid(const ReliefOptions& options) {
   const Solid solid = value_of(make_relief(model(), options)).solid;
   const Vec2 middle = Box::of(solid.points).centre().head<2>();

@@ -1,4 +1,4 @@
-// Tests which points of a scene are visible, and the relief that is made from them.
+// Tests which points of a scene are visible, and the relief that is made from these points.
 #include "relievo/io/write.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
@@ -44,7 +44,7 @@ TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
   }
 }
 
-// Returns a level square with 2 x side x side triangles.
+// Returns a level square of 2 x side x side triangles.
 Mesh sheet(int side) {
   const HeightFieldMesh front = flat_front({1. * side, 1. * side, side, side});
   return {front.points, front.triangles};
@@ -65,7 +65,7 @@ TEST(SeenScene, TakesFewerPointsOfMeshesOfFewTriangles) {
   EXPECT_EQ(usual_points(Scene{{mesh, cloud}}), 3e5);
 }
 
-// Returns the file with its points, mesh and normals transformed to the coordinates of the scene.
+// Returns the file with its points, mesh and normals transformed to the scene's coordinates.
 CloudFile baked(const CloudFile& file, const PlacedModel& place, bool is_mirrored) {
   CloudFile made = file;
   for (Vec3& p : made.cloud.points) p = place(p);
@@ -125,8 +125,8 @@ TEST(SeenScene, MeshesHideEachOther) {
   }
 }
 
-// The spacing of a ball's points, and the mean angle between a point's normal and the direction from the
-// ball's centre to the point.
+// The spacing of the points of a ball, and the mean error of their normals: the angle between a
+// normal and the direction from the ball's centre.
 struct Look {
   double spacing = 0, angle_deg = 0;
 };
@@ -239,7 +239,7 @@ TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
   expect_same_for_any_threads([&] { return write_stl(value_of(make_relief(scene, options)).solid); });
 }
 
-// One ball is in front of another. The relief must have no wall at the jump between them.
+// One ball is in front of another one. The relief must have no wall at the depth jump between them.
 TEST(SceneRelief, NoWallStandsBetweenModels) {
   const Scene scene{
       {model_of(test::sphere(60000, 1), at(0, 0, 0)), model_of(test::sphere(60000, 1), at(.9, 0, -8))}};
@@ -255,10 +255,10 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
                q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
-  // `steepest` is the largest height difference along two edges of each triangle, in mm. A wall between the
-  // balls would be almost as high as the whole relief, 4 mm, because their depths differ by more than the
-  // width of the relief. Without a wall, the ends of an edge differ little in height, because edges on the
-  // balls are only a fraction of a millimetre long.
+  // `steepest` is the largest height difference, in mm, between the ends of two edges of each triangle. Edges on the
+  // balls are only a fraction of a millimetre long, so their ends differ little in height. The depths of the balls
+  // differ by more than the width of the relief. So a wall between them would be almost as high as the whole relief, 4
+  // mm.
   EXPECT_LT(steepest, 1.0);
 }
 

@@ -97,8 +97,8 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
-// If work rarely checks whether it is cancelled, the user need not wait for it, and its result must not
-// appear later.
+// Even if work rarely checks whether it was cancelled, the user must not have to wait for it, and its
+// result must not appear later.
 TEST(Session, SaysAtOnceThatItIsCancelled) {
   Session session;
   std::binary_semaphore has_begun{0}, goes_on{0};

@@ -1,4 +1,4 @@
-// Tests sessions whose model is being turned.
+// Tests sessions while their model is being turned.
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -56,7 +56,7 @@ std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& vi
   return value_of(session.turn(view)).model;
 }
 
-// Calls turn() twice before the first model is ready. Returns whether both calls gave the same relief.
+// Calls turn() twice before the first model is ready. Returns whether both calls returned the same relief.
 bool turns_once(bool makes_first_relief) {
   Session session;
   HeldAtPoints held{session};
@@ -113,8 +113,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   EXPECT_EQ(asked, 1);
 }
 
-// The last picture of a turn may be requested so late that the view at the end of the turn is already being
-// prepared.
+// The view at the end of a turn may already be in preparation when the last picture of the turn is requested.
 TEST(Session, TurningLeavesThePreparationAlone) {
   Session session;
   session.open(preparation_of());
@@ -129,7 +128,7 @@ TEST(Session, TurningLeavesThePreparationAlone) {
   ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
-// A session whose first turn gets the points of all sides only after the turn was cancelled.
+// A session whose first turn gets no points until it is cancelled; then it gets the points of all sides.
 struct StuckTurn {
   std::binary_semaphore has_begun{0};
   std::atomic<bool> is_first = true, has_ended = false;
@@ -148,8 +147,8 @@ struct StuckTurn {
     EXPECT_TRUE(session.wait_until_idle(60s));
   }
 
-  // Calls turn() in another thread, and `end` while turn() waits for the points. Returns the error of turn(),
-  // if any.
+  // Calls turn() in another thread, and calls `end` while turn() waits for the points. Returns the error of
+  // turn(), if there is one.
   template <typename F>
   std::optional<ErrorKind> error_after(F&& end) {
     std::optional<ErrorKind> error;
@@ -179,7 +178,7 @@ TEST(Session, TurningCanBeCancelled) {
   EXPECT_TRUE(stuck.session.turn(view_to("1,1,1")));
 }
 
-// The view at the end of a drag is opened while the last picture of the drag is still being drawn.
+// The view at the end of a drag is opened while the last picture of this drag is still being drawn.
 TEST(Session, AnOpeningLeavesTurningAlone) {
   StuckTurn stuck;
   EXPECT_EQ(stuck.error_after([&] {

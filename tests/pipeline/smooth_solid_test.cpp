@@ -1,5 +1,5 @@
-// Tests the solid of a shape that is smooth except at its silhouette and at one depth jump: a button with a
-// smaller button in front of it.
+// Tests the solid of a shape that is smooth except at its silhouette and at one depth jump. The shape is a
+// button with a smaller button in front of it.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,8 +24,7 @@ Cloud two_buttons(std::size_t n) {
                       test::button(n / 5, face / 2, rounding / 2, .5));
 }
 
-// Returns the angles in degrees between neighbouring facets of the front, except at the silhouette and at the
-// jump.
+// Returns the angles in degrees between neighbouring facets of the front. The silhouette and the jump do not count.
 std::vector<double> facet_angles(const Solid& solid, double rho_mm) {
   const auto normal = [&](std::size_t t) -> Vec3 {
     const auto& [a, b, c] = solid.triangles[t];
@@ -72,15 +71,15 @@ MadeRelief made_of(const Cloud& cloud, ReliefOptions options = {}) {
 // The number of points of a scan, and bounds of the angles between the facets of its solid.
 struct FacetBounds {
   std::size_t points;
-  double most_deg, rare_deg;  // bounds that hold for 99 % and 99.9 % of the angles
+  double most_deg, rare_deg;  // bounds of 99 % and of 99.9 % of the angles
 };
 
 class SmoothSolid : public testing::TestWithParam<FacetBounds> {};
 
-// At the small button's edge, the normal turns by 14 degrees from one point to the next if there are 20,000
-// points, and by 3 degrees if there are 250,000. The step at the jump has the requested height. It differs
-// from the height that the slopes beside the jump give, so the rows next to the jump bend. A wide boundary
-// weight bends the surface by 13 degrees along the whole silhouette.
+// The bounds are not smaller for three reasons. At the small button's edge, the normal turns from one point to the
+// next: by 14 degrees for 20,000 points, by 3 degrees for 250,000. The step at the jump has the requested height. The
+// slopes beside the jump give another height, so the rows next to it bend. A wide boundary weight bends the surface by
+// 13 degrees along the whole silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
@@ -88,7 +87,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   EXPECT_LT(quantile(angles, .999), GetParam().rare_deg);
 }
 
-// The limit removes the rounding at the edges, which leaves a crease around each button.
+// The slope limit removes the rounding at the buttons' edges, which leaves a crease around each button.
 TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
   for (const Form form : {Form::relief, Form::die}) {
     ReliefOptions options;

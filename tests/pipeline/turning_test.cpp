@@ -28,7 +28,7 @@ RenderOptions shown_at(double mm_per_unit) {
   return options;
 }
 
-// Draws the relief as the studio does.
+// Draws a relief as the studio does while a model is turned.
 Image8 picture_of(const ShownModel& relief) {
   ReliefOptions options;
   options.height_mm = height_mm;
@@ -52,10 +52,10 @@ ShownModel prepared(const MeasuredCloud& measured, const View& view) {
   return {std::make_shared<const ReliefModel>(std::move(model))};
 }
 
-// Similarities between the picture of a turned relief and that of the relief of all points, in the same view.
+// Similarities of the picture of a turned relief with the picture of the relief of all points in the same view.
 struct Similarities {
-  double turned = 0;  // with the height correction of another view, as during a turn
-  double first = 0;   // without an earlier model, as just after a scan was opened
+  double turned = 0;  // with the height correction of another view
+  double first = 0;   // without an earlier model, as after opening a scan
 };
 
 Similarities similarities(const Cloud& cloud, const char* from, const char* to) {
@@ -91,8 +91,7 @@ TEST(Turntable, LooksLikeTheFullRelief) {
   EXPECT_GT(found.first, .9);
 }
 
-// Differences of less than half a cell would not be visible, but the same call must always give the same
-// relief.
+// Differences of less than half a cell would not be visible. Still, the same call must always give the same relief.
 TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
   const Turntable table(*measured);
@@ -113,8 +112,8 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
   }
 }
 
-// Turns a sphere of radius 1. The model before it has a support plane at `height`. Returns the diameter of
-// the part of the sphere that is left.
+// Turns a sphere of radius 1 whose model before the turn has a support plane at `height`. Returns the
+// diameter of the part of the sphere in front of the plane.
 double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
   Surface surface = find_surface(measured, {}).value();
   surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};

@@ -15,7 +15,7 @@ namespace {
 constexpr int columns = 61, rows = 41;
 constexpr double mm_per_value = .05;
 
-// Returns the height at a point of a map. Tiles are windows of this map.
+// Returns the height at a point of a map, from which tiles are cut.
 double terrain(double column, double row) {
   return 60 + 30 * std::sin(.1 * column) + 12 * std::cos(.17 * row);
 }
@@ -45,7 +45,7 @@ MadeRelief relief_of_tile(int first_column, const ReliefOptions& options) {
   return value_of(make_relief(tile(first_column), options));
 }
 
-// Expects that the upper points of the wall at that x have the heights of the given column of the map.
+// Expects that the upper points of the wall at `x` have the heights of column `column` of the map.
 void expect_edge(const MadeRelief& made, double x, int column, double ground) {
   int found = 0;
   for (const Vec3& p : made.solid.points) {
@@ -53,7 +53,8 @@ void expect_edge(const MadeRelief& made, double x, int column, double ground) {
     if (std::abs(p.x() - x) > .005 || height < .05) continue;
     const double row = rows - .5 - (p.y() - .01);
     if (row < 0 || row > rows - 1) continue;  // corners of the plate
-    // Between neighbouring pixels, heights differ by up to 0.15 mm across the edge and by 0.1 mm along it.
+    // The tolerance is small enough to notice a wrong pixel: neighbouring pixels differ by up to 0.15 mm
+    // across the edge and by 0.1 mm along it.
     EXPECT_NEAR(height, mm_per_value * (terrain(column, row) - ground), .05) << row;
     ++found;
   }
@@ -96,7 +97,7 @@ TEST(VerticalScale, OfDepthsIsTheirDifference) {
   EXPECT_NEAR(made.report.height_mm, mm_per_value * (102 - 18), .05);
 }
 
-// The values of a scan are its own lengths, so a scale of 1 keeps its proportions.
+// The values of a scan are lengths in its own unit, so a scale of 1 keeps the scan's proportions.
 TEST(VerticalScale, OfAScanIsThatOfItsLengths) {
   ReliefOptions options;
   options.width_mm = 40;

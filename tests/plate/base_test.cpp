@@ -104,7 +104,7 @@ TEST(Base, IsSmoothButForItsRidge) {
     for (const Vec2& way : {Vec2(step, 0), Vec2(0, step)}) {
       if (base.ridge_between(p - way, p + way)) continue;
       const double bend = base.height(p + way) - 2 * base.height(p) + base.height(p - way);
-      RC_ASSERT(std::abs(bend) < step * step);  // a curvature below 1 / mm, which excludes steps
+      RC_ASSERT(std::abs(bend) < step * step);  // the curvature is below 1 / mm, so there are no steps
     }
   }));
 }
@@ -125,7 +125,7 @@ TEST(Base, IsZeroInTheMiddleAndNoHigherThanAsked) {
 
 TEST(Base, AnImageOfStepsHasNone) {
   Image<float> grid = filled_image(200, 120, 0.F);
-  for (std::size_t i = 0; i < 24000; ++i)  // a ramp with steps of ten pixels, which are 5 mm
+  for (std::size_t i = 0; i < 24000; ++i)  // a ramp with steps ten pixels wide, which are 5 mm
     grid[i] = static_cast<float>(i % 200 / 10);
   BaseOptions options = *parse_base("image:height=19");
   options.image = std::make_shared<const Image<float>>(grid);

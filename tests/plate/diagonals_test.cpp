@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// A square grid of points on a roof. Its ridge runs along the diagonal from the lower left corner or, if
-// `direction` is -1, from the upper left corner.
+// A square grid of points on a roof. The roof's ridge runs along a diagonal of the square: from the
+// lower left corner or, if `direction` is -1, from the upper left corner.
 struct Roof {
   std::vector<Vec2> points;
   std::vector<Vec2f> slopes;
@@ -46,7 +46,7 @@ struct Roof {
 };
 
 TEST(Diagonals, FollowARidge) {
-  // For at least one direction of the ridge, edges of the Delaunay triangulation cross the ridge.
+  // Edges of the Delaunay triangulation cross the ridge, at least for one of the two directions.
   EXPECT_GT(std::max(Roof(1).error(1), Roof(-1).error(-1)), .05);
   for (const double direction : {1., -1.}) {
     Roof roof(direction);

@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Returns a square whose points near the centre are so dense that single precision folds their triangles.
+// Returns a square front whose points near the centre are very dense: single precision folds their triangles.
 Solid dense_surface(double size) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> share(.499999, .500001);

@@ -17,7 +17,7 @@
 namespace relievo {
 namespace {
 
-// Returns an asymmetric cloud: a ball with a smaller ball at its upper right.
+// Returns an asymmetric cloud: a ball with a smaller ball on its upper right.
 Cloud balls() {
   Cloud cloud = test::sphere(12000, 1);
   const Cloud small = test::sphere(6000, .5, 9);
@@ -51,7 +51,7 @@ Cloud grey_ball(F grey) {
   return cloud;
 }
 
-// Returns a grey picture as flat points. Its values are grey(column, row).
+// Returns a grey picture as a cloud of flat points. Its values are grey(column, row).
 template <typename F>
 Cloud picture(int width, int height, F grey) {
   DepthImage image{filled_image(width, height, 0.F), 1, "test"};
@@ -82,7 +82,7 @@ TEST(Forms, AMirrorSwapsLeftAndRight) {
 TEST(Forms, TheReliefFitsIntoItsDie) {
   const MadeRelief relief = made(Form::relief), die = made(Form::die);
   const double width = Box::of(relief.solid.points).max.x();
-  // Rotated about the y axis, the die fits on the relief without a gap.
+  // If the die is rotated by 180 degrees about the y axis, it fits on the relief without a gap.
   const double sum = relief.solid.points[0].z() + die.solid.points[0].z();
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 89) {
     EXPECT_NEAR(die.solid.points[i].x(), width - relief.solid.points[i].x(), 1e-9);
@@ -96,7 +96,7 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const Box box = Box::of(it.solid.points);
   EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is so thin that light passes
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
-  // The lamp is at the upper left: the plate is thinner at the ball's upper left than at its lower right.
+  // The lamp is at the upper left. So the plate is thinner at the ball's upper left than at its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));
   EXPECT_LT(height_around(front, {-3, 3}, 1), .1);
   EXPECT_GT(height_around(front, {5, -5}, 1), 1);
@@ -105,8 +105,8 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 
 TEST(Forms, ColoursDarkenALithophane) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) { return p.y() > 0 ? 255 : 200; }));
-  // Grey 200 must transmit 57.8 % of the light that white transmits. So the plate must be thicker there, by 4
-  // ln(1 / 0.578) / ln 10 = 0.95 mm.
+  // Grey 200 must transmit 57.8 % of the light that white transmits. A thickness of 4 mm weakens light to a
+  // tenth, so the plate must be thicker by 4 ln(1 / 0.578) / ln 10 = 0.95 mm there.
   EXPECT_NEAR(height_around(front, {-1, -.5}, .4) - height_around(front, {-1, .5}, .4), .95, .15);
 }
 
@@ -120,7 +120,7 @@ TEST(Forms, AHighlightDarkensNothingElseOfALithophane) {
   EXPECT_NEAR(middle(255), middle(60), .05);
 }
 
-// Two of the ball's three shades are darker than a tenth of white, but their heights must differ.
+// Two of the ball's three shades are darker than a tenth of white. Still, their heights must differ.
 TEST(Forms, ALithophaneShowsWhatIsDarkerThanATenth) {
   const HeightFieldMesh front = lithophane_of(grey_ball([](const Vec3& p) {
     return p.y() > .3 ? 255 : p.y() > -.3 ? 60 : 30;
@@ -143,8 +143,8 @@ TEST(Forms, ColoursReachThePlate) {
   EXPECT_EQ(back.mesh.triangles.size(), relief.solid.triangles.size());
 }
 
-// Every pixel of a picture counts: no highlights are cut, the darkest tenth is not black, and no shading is
-// added.
+// Every pixel of a picture counts. No highlights are cut, the darkest tenth does not become black, and no
+// shading is added.
 TEST(Lithophane, OfAPictureIsLinearInEveryPixel) {
   constexpr int width = 40, height = 30;
   const auto grey = [](int c, int r) { return (37 * c + 101 * r) % 256; };

@@ -14,8 +14,8 @@ namespace {
 
 using test::grid_front, test::plate_of;
 
-// Expects that the field has the heights of the front above its lowest point, and 0 outside the front.
-// Computes the expected heights by testing all triangles.
+// Expects that the field has the heights of the front above the front's lowest point, and 0 outside
+// the front. The expected heights are computed by testing all triangles.
 void expect_heights_of(const Solid& solid) {
   const HeightField field = measure_height_field(solid, {97});
   ASSERT_FALSE(field.z.empty());
@@ -33,7 +33,7 @@ double waves(double x, double y) {
   return 2 + std::sin(x) + std::sin(1.3 * y);
 }
 
-// Earlier versions smoothed flat bevels such as these, and folds, by up to 0.7 mm.
+// Earlier versions smoothed flat bevels such as these, and the folds of the next test, by up to 0.7 mm.
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {
@@ -79,8 +79,8 @@ TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
     }
 }
 
-// The wall is so steep that a rasteriser that rounds corners to fractions of a pixel could put it on the
-// wrong side of a pixel's centre.
+// The wall is so steep that rounding its corners to fractions of a pixel could move it to the wrong side
+// of a pixel's centre. The field must not round corners so coarsely.
 TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   const auto wall = [](double x, double) { return x < 10 ? 3. : 0.; };
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);

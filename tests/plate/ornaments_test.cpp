@@ -71,7 +71,7 @@ TEST(Ornaments, MakeAClosedSolidWithLettersOfTheirHeight) {
 }
 
 TEST(Ornaments, AddTheVolumeOfTheirShapes) {
-  // A square of side 4 whose walls have slope 2 and height 0.5 is a frustum.
+  // A square of side 4 mm with walls of slope 2 and height 0.5 mm is a frustum.
   Ornament square = ornament(OrnamentKind::drawing);
   square.outlines = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
   square.size_mm = 4;
@@ -83,7 +83,7 @@ TEST(Ornaments, AddTheVolumeOfTheirShapes) {
   const double frustum = .5 / 3 * (low + high + std::sqrt(low * high));
   const double without = volume_mm3(plate_of(figure(), coin({})));
   EXPECT_NEAR(volume_mm3(plate_of(figure(), options)) - without, frustum, 1e-4);
-  // A sunk drawing removes the same volume, and the plate is thicker by its depth.
+  // A sunk drawing removes the volume that a raised one adds, and the plate is thicker by the drawing's depth.
   options.ornaments[0].height_mm = -.5;
   const Solid sunk = plate_of(figure(), options);
   EXPECT_EQ(check_solid(sunk), "");

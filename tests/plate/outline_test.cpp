@@ -20,8 +20,8 @@
 namespace relievo {
 namespace {
 
-// Returns the smallest signed distance of the points from the lines of the polygon's edges. It is negative if
-// a point is outside the polygon.
+// Returns the smallest signed distance of the points from the lines through the polygon's edges. It is
+// negative if a point is outside the polygon.
 double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& points) {
   double least = 1e300;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -64,14 +64,14 @@ TEST(OutlineAround, ASquareHasAKnownCircleEllipseAndHexagon) {
   const double radius = 10 * std::numbers::sqrt2 + 2;
   EXPECT_NEAR(size_of(outline_around(square, {Outline::circle, 5, 2})).x(), 2 * radius, .02);
   EXPECT_NEAR(size_of(outline_around(square, {Outline::ellipse, 5, 2})).y(), 2 * radius, .02);
-  // In the direction of the midpoints of the hexagon's slanted sides, the square extends to 10 sqrt(3)/2 +
-  // 10/2. The margin adds 2.
+  // Towards the midpoint of a slanted side of the hexagon, the square extends to 10 sqrt(3)/2 + 10/2, and
+  // the margin adds 2.
   const double width = size_of(outline_around(square, {Outline::hexagon, 5, 2})).minCoeff();
   EXPECT_NEAR(width, 2 * (10 * std::sqrt(.75) + 5 + 2), .05);
 }
 
-// The smallest circle around this triangle has its centre at (6.3, -2), not at the centre of the bounding
-// box. The outline must be centred on the box.
+// The smallest circle around this triangle has its centre at (6.3, -2), which is not midway between left
+// and right. The outline must be centred midway.
 TEST(OutlineAround, ACircleIsInTheMiddleBetweenLeftAndRight) {
   const std::vector<Vec2> triangle = {{-10, 0}, {10, -18}, {10, 14}};
   const std::vector<Vec2> circle = outline_around(triangle, {Outline::circle, 5, 2});
@@ -80,7 +80,7 @@ TEST(OutlineAround, ACircleIsInTheMiddleBetweenLeftAndRight) {
   EXPECT_NEAR(size_of(circle).x() / 2, std::hypot(10, 16) + 2, .01);
 }
 
-// Returns the largest distance of the polygon's corners, and of the midpoints of its sides, from a curve.
+// Returns the largest distance from a curve, over the polygon's corners and the midpoints of its sides.
 // `off` returns the signed distance of a point from the curve.
 template <typename Off>
 double worst_of(const std::vector<Vec2>& polygon, Off off) {
@@ -92,7 +92,7 @@ double worst_of(const std::vector<Vec2>& polygon, Off off) {
   return worst;
 }
 
-// In an earlier version, the polygon of a coin of 30 mm had 88 sides and was 30.019 mm wide.
+// An earlier version made polygons that were too coarse: that of a coin of 30 mm had 88 sides and was 30.019 mm wide.
 TEST(OutlineAround, ACirclesPolygonLiesWithinAMicrometreOfIt) {
   for (const double diameter : {1., 30., 80., 900.}) {
     const std::vector<Vec2> point = {{70, -3}};
@@ -131,8 +131,8 @@ TEST(OutlineAround, RoundCornersAndEllipsesLieWithinAMicrometreOfTheirCurves) {
   EXPECT_LE(worst_of(round, off_round), 1e-3);
   EXPECT_LT((size_of(round) - Vec2(60, 40)).norm(), 1e-9);
   const std::vector<Vec2> ellipse = outline_around(point, {Outline::ellipse, 5, .1, {60, 40}});
-  // Returns the distance from the ellipse to first order: the value of the ellipse's function divided by the
-  // length of its gradient.
+  // Returns the distance of a point from the ellipse, to first order: the value of the ellipse's function
+  // divided by the length of the function's gradient.
   const auto off_ellipse = [](const Vec2& p) {
     const Vec2 shares = p.cwiseQuotient(Vec2(30, 20));
     return (shares.squaredNorm() - 1) / (2 * shares.cwiseQuotient(Vec2(30, 20)).norm());
@@ -150,7 +150,7 @@ TEST(OutlineAround, HasTheSizeAskedForAndItsCentre) {
     EXPECT_LT((size_of(sized) - size).norm(), 1e-9) << name;
     const Vec2 shift = middle_of(sized) - middle_of(small);
     EXPECT_LT(shift.norm(), outline == Outline::ellipse ? .5 : 1e-9)
-        << name;  // the ratio of the axes differs from that of the small ellipse
+        << name;  // the small ellipse has another ratio of axes
   }
 }
 
@@ -169,10 +169,10 @@ TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
 TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {
   const std::vector<Vec2> box = {{0, 0}, {30, 0}, {30, 20}, {0, 20}};
   EXPECT_LT((size_of(outline_around(box, {Outline::round, 5, 5})) - Vec2(40, 30)).norm(), 1e-9);
-  // Without the margin of 5, corners of radius 15 - 5 would cut off the corners of the box, so the rectangle
-  // must be larger.
+  // Inside the margin of 5, the outline's corners have the radius 15 - 5. They would cut off the corners of
+  // the box, so the rectangle must be larger.
   const Vec2 grown = size_of(outline_around(box, {Outline::round, 15, 5}));
-  const double inner = 10 * (1 - std::sqrt(.5));  // by how much each side moves out
+  const double inner = 10 * (1 - std::sqrt(.5));  // the distance by which each side moves out
   EXPECT_NEAR(grown.x(), 40 + 2 * inner, .02);
   EXPECT_NEAR(grown.y(), 30 + 2 * inner, .02);
 }
@@ -194,8 +194,7 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   }
 }
 
-// Returns a grid of squares. Those that `rows` marks with '#' belong to the relief. Their heights do not
-// matter.
+// Returns a grid of squares. The squares that `rows` marks with '#' belong to the relief. The heights do not matter.
 HeightFieldMesh patches(const std::vector<std::string>& rows) {
   const int n = static_cast<int>(rows.size());
   HeightFieldMesh front =
@@ -236,8 +235,8 @@ TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
 }
 
 TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
-  // The two blocks touch in one point. The diagonals of cells run through it, so two triangles of each block
-  // meet there. Those of one block are removed.
+  // The two blocks touch in one point. The diagonals of cells run through this point, so two triangles of
+  // each block meet there. The triangles of one block are removed.
   const auto solid = test::plate_of(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(pieces(solid), 2U);
@@ -303,9 +302,8 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
   EXPECT_NEAR(flat_area(simpler.solid), flat_area(full.solid), 1e-6);
 }
 
-// At the edge of the relief, only half of a cell may belong to the relief. The corners of a cell lie on a
-// circle, so the Delaunay triangulation may divide the cell along its other diagonal. This moves the
-// silhouette by half a cell.
+// At the relief's edge, only half of a cell may belong to the relief. The corners of a cell lie on a circle, so the
+// Delaunay triangulation may divide the cell along its other diagonal. That moves the silhouette by half a cell.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
   HeightFieldMesh front =
@@ -323,8 +321,8 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // the whole area is 254
 }
 
-// The transform in the report must map each point of the outline to a corner of the solid, and the lowest
-// point to the ground. The test tries all outlines and forms, with a scan far from the origin.
+// The transform in the report must map each point of the outline to a corner of the solid, and the scan's
+// lowest point to the ground. All outlines and forms are tested, with a scan far from the origin.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
   Cloud cloud = two_pieces();
   for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);

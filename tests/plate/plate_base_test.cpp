@@ -24,7 +24,7 @@ double bump(double x, double y) {
   return to_middle < 8 ? 1 + std::cos(to_middle * std::numbers::pi / 8) : 0;
 }
 
-// Returns a hill at the centre of flat ground.
+// Returns a hill in the middle of flat ground, as a grid.
 HeightFieldMesh hill() {
   HeightFieldMesh front = test::grid_front({30, 20, 30, 20}, bump);
   for (const Triangle& t : front.triangles)
@@ -32,7 +32,7 @@ HeightFieldMesh hill() {
   return front;
 }
 
-// Returns the same hill as a Delaunay triangulation of scattered points, also with flat ground around it.
+// Returns the same hill on flat ground, as a Delaunay triangulation of scattered points.
 HeightFieldMesh scattered_hill() {
   test::Random random(7);
   std::vector<Vec3> points;
@@ -52,7 +52,7 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
   return options;
 }
 
-// Calls f at seven points of each front triangle: its corners, the midpoints of its sides, and one inside.
+// Calls f at seven points of each triangle of the front: its corners, the midpoints of its sides, and one inside.
 void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     const auto& [a, b, c] = solid.triangles[t];
@@ -63,7 +63,7 @@ void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
   }
 }
 
-// Finds heights of a plate's front. A grid lists the triangles whose bounding boxes meet each cell.
+// Finds heights of a plate's front. Each cell of a grid lists the triangles whose bounding boxes meet the cell.
 class Heights {
  public:
   explicit Heights(const Solid& solid) : solid_(solid), cells_(80 * 80) {
@@ -97,7 +97,8 @@ class Heights {
 
 // ------------------------------------------------------------------------------------------------------ shape
 
-// The relief minus its base must be the relief on the plane, everywhere: on the hill, the ground and the rim.
+// The height on a curved base minus the height of the base must be the height on a plane base, everywhere: on
+// the hill, the ground and the rim.
 TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
   for (const HeightFieldMesh& front : {scattered_hill()})
     for (const Outline outline : {Outline::rectangle, Outline::circle})
@@ -142,7 +143,7 @@ TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
   const HeightFieldMesh front = hill();
   const PlateOptions options = plate_on("fold:angle=30");
   const Solid solid = test::plate_of(front, options);
-  // No triangle has corners on both sides of the ridge.
+  // No triangle may have corners on both sides of the ridge.
   const double middle = 17;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     double left = 0, right = 0;
@@ -200,8 +201,7 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
-      // Each surface may bend between points of the other surface, so they are compared at the points of
-      // both.
+      // Each surface may bend between the points of the other one, so they are compared at the points of both.
       double worst = 0;
       for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
         const Heights heights(*other);

@@ -15,7 +15,7 @@ HeightFieldMesh hill() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
 }
 
-// Returns the outline of a plate: the corners of its bottom in order.
+// Returns the outline of a plate: the corners of the plate's bottom in order.
 std::vector<Vec2> outline_of(const Solid& solid) {
   std::vector<Vec2> outline;
   for (const Vec3& p : solid.points)
@@ -73,7 +73,7 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
     const Solid die = plate_of(hollow, {1, 2, outline, 5, {2, -.8, .3}});
     ASSERT_EQ(check_solid(die), "") << name;
     EXPECT_EQ(Box::of(die.points).max.z(), 5);
-    // `shift` moves the coin so that its first point is that of the die.
+    // `shift` moves the coin so that its first point coincides with that of the die.
     const Vec3 shift = die.points[0] - coin.points[0];
     const std::vector<Vec2> inside = outline_of(coin), outside = outline_of(die);
     for (const Vec2& p : inside) EXPECT_NEAR(depth_in(outside, p + shift.head<2>()), 2.3, 1e-3);

@@ -12,8 +12,7 @@ namespace {
 
 const Tool ball_end{Tool::Kind::ball, 2};
 
-// Returns a block of 20 x 10 mm, 3 mm high, with walls as steep as the grid allows, and with a pit at its
-// centre.
+// Returns a block of 20 x 10 mm, 3 mm high. Its walls are as steep as the grid allows, and it has a pit at its centre.
 HeightFieldMesh block() {
   return test::grid_front({40, 20, 160, 80}, [&](double x, double y) {
     const bool is_pit = std::abs(x - 20) < 1 && std::abs(y - 10) < 1;
@@ -44,7 +43,7 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
     const ToolReach was = measure_reach(before, ball_end), is = measure_reach(after, ball_end);
     EXPECT_GT(was.largest_residual_mm, .6);
     EXPECT_GT(is.reached_share, .995);
-    EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // a wall of slope 12 rises by this per sample
+    EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // the rise of a wall per sample
     double lowest = 0;
     for (std::size_t i = 0; i < is.heights_mm.pixels.size(); ++i)
       if (!std::isnan(is.heights_mm.pixels[i]))
@@ -53,8 +52,8 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
   }
 }
 
-// A ball end of radius 1 touches a wall of slope 12 and the ground. In between, the surface has the shape of
-// the ball.
+// The tool, a ball end of radius 1 mm, touches a wall of slope 12 and the ground. Between these contacts,
+// the surface must have the shape of the ball.
 TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
   const Solid solid = test::plate_of(block(), with_tool());
   const Vec2 foot(5 + 30, 5 + 10);

@@ -19,7 +19,7 @@ double dome(const Vec2& p) {
   return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
 }
 
-// Returns a front over random points in a square and over its corners. Its heights are height(p).
+// Returns a front over random points in a square and the corners of the square. Its heights are height(p).
 template <typename F>
 HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);
@@ -38,7 +38,7 @@ std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-// With a facet angle of 0.01, a cell of the sampling grid has one sample; with 0.004, it has four.
+// If the facet angle is 0.01, a cell of the sampling grid gets one sample; if it is 0.004, the cell gets four.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();
@@ -92,7 +92,7 @@ TEST(SampleFront, HasNoThinTriangleAwayFromTheHull) {
       least = std::min(least, std::acos(u.normalized().dot(v.normalized())));
     }
     if (is_far) {
-      EXPECT_GT(least, .2);  // 11 degrees
+      EXPECT_GT(least, .2);  // 0.2 rad is 11 degrees
     }
   }
 }

@@ -20,7 +20,7 @@ Image<Vec2f> grid_of(Slope slope) {
   return slopes;
 }
 
-// Returns the slopes of a cylinder along y. Its normal turns by the angle `turn` from cell to cell.
+// Returns the slopes of a cylinder along y. The normal turns by the angle `turn` from one cell to the next.
 Image<Vec2f> cylinder(float turn) {
   return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
 }
@@ -51,7 +51,7 @@ TEST(SampleSquares, CoverEachCellWithASlopeOnce) {
 TEST(SampleSquares, AreLargeOnAPlane) {
   const std::vector<SampleSquare> squares = sample_squares(cylinder(0), angle);
   const auto large = std::ranges::count(squares, largest_square, &SampleSquare::side);
-  EXPECT_EQ(large, 16);  // smaller squares surround these at the edge of the grid
+  EXPECT_EQ(large, 16);  // at the edge of the grid the squares are smaller
   EXPECT_EQ(quartered(squares), 0);
 }
 
@@ -76,8 +76,8 @@ TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
 }
 
 TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
-  // Around a cone, the slope keeps its steepness but changes its direction. This turns the normals of a steep
-  // cone more than those of a flat one, so the steep cone needs smaller squares.
+  // Around a cone, the slope changes its direction but not its size. This turns the normals of a steep cone
+  // more than those of a flat one. So the steep cone needs smaller squares.
   const auto cone = [](float steepness) {
     return grid_of([&](int x, int y) {
       return Vec2f(steepness *

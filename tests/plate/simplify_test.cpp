@@ -17,7 +17,7 @@ namespace {
 
 using test::flat_front, test::grid_front;
 
-// Returns the Delaunay triangulation of scattered points and of a surrounding rectangle at height 0.
+// Returns the Delaunay triangulation of scattered points, and of a rectangle around them on the ground.
 HeightFieldMesh scattered_front(int n, const std::function<double(double, double)>& z,
                                 std::uint64_t seed = 7) {
   test::Random random(seed);
@@ -44,7 +44,7 @@ TEST(Simplify, FlatGroundBecomesTwoTriangles) {
 }
 
 // The sides of this front are straight only up to rounding. So a point on a side may lie slightly outside all
-// triangles between the other points.
+// triangles of the other points.
 TEST(Simplify, TakesAHullThatIsStraightUpToRounding) {
   const auto simpler =
       simplify(test::turned_grid_front(60, .5, [](double x, double y) { return waves(9 * x, 9 * y); }), .1);
@@ -68,7 +68,7 @@ TEST(Simplify, FlatGroundStaysFlat) {
   EXPECT_GT(level, 1000);
 }
 
-// Returns the edges of all triangles. An edge that two triangles share is returned twice.
+// Returns the edges of all triangles. An edge of two triangles is returned twice.
 std::vector<std::array<Vec2, 2>> edges_of(const HeightFieldMesh& front) {
   std::vector<std::array<Vec2, 2>> edges;
   for (const Triangle& t : front.triangles)
@@ -77,15 +77,15 @@ std::vector<std::array<Vec2, 2>> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// The difference of two piecewise linear surfaces is largest at a point of one of them or where two of their
-// edges cross, so all these points are tested.
+// The difference of two piecewise linear surfaces is largest at a point of one of them, or where an edge of
+// one crosses an edge of the other. So all these points are tested.
 TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   const HeightFieldMesh full = scattered_front(80, waves);
   const auto simpler = value_of(simplify(full, .4));
   double largest = 0;
   const auto compare = [&](const Vec2& place) {
     const double error = std::abs(height_at(full, place) - height_at(simpler.front, place));
-    if (error > largest) largest = error;  // NaN, at points that are outside by rounding, does not count
+    if (error > largest) largest = error;  // ignores NaN, at points that rounding put outside
   };
   for (const Vec3& p : full.points) compare(p.head<2>());
   for (const auto& [a, b] : edges_of(full))
@@ -98,9 +98,8 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   EXPECT_NEAR(simpler.error_mm, largest, 1e-9);
 }
 
-// All points of this front are needed. The corners of a cell lie on a circle, so a Delaunay triangulation may
-// use the other diagonal of a cell. With that diagonal, simplify() would need more triangles than the front
-// has.
+// All points of this front are needed. The corners of a cell lie on a circle, so a Delaunay triangulation may use the
+// other diagonal of the cell. With the other diagonals, simplify() would need more triangles than the front has.
 TEST(Simplify, NeverAddsTriangles) {
   const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });
@@ -156,7 +155,7 @@ double steepest(const HeightFieldMesh& front) {
 }
 
 TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
-  // Returns the height of folds of slope 1.1. At the rim, ramps of slope 1 cut them off.
+  // Returns the height of folds of slope 1.1. At the rim, ramps of slope 1 cut the folds off.
   const auto folds = [](double x, double y) {
     const double along = x + .5 * y + 100;
     return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});

@@ -100,8 +100,8 @@ TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
     const Solid solid = plate_of(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
     RC_ASSERT(check_solid(solid) == "");
     const Vec3 size = used_box(solid).max;
-    // All triangles have a positive area, and their areas add up to that of the rectangle, so they neither
-    // overlap nor leave gaps.
+    // All triangles have a positive area, and their areas add up to the area of the rectangle. So the
+    // triangles neither overlap nor leave gaps.
     const double area = area_from_above(solid);
     RC_ASSERT(std::abs(area - size.x() * size.y()) < 1e-9 * area);
   }));
@@ -184,7 +184,7 @@ TEST(CheckSolid, NamesWhatIsBroken) {
 }
 
 TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
-  // The solid consists of the same closed body twice, once inside out, so four triangles share each edge.
+  // The solid consists of the same closed body twice, once of it inside out. So each edge belongs to four triangles.
   Solid solid = bumpy_plate();
   const std::vector<Triangle> once = solid.triangles;
   for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});
@@ -202,7 +202,7 @@ TEST(Volume, DoesNotDependOnThePlace) {
 
 // ------------------------------------------------------------------------------------------------- writers
 
-// Reads numbers from the start of bytes, in the byte order of the formats.
+// Reads numbers from the start of bytes, in the byte order of STL and PLY files.
 struct Reader {
   std::span<const std::byte> rest;
   template <typename T>
@@ -329,7 +329,7 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle are different in a file in millimetres. If their coordinates are only divided by
+// Two points of a needle differ in a file in millimetres. If their coordinates are merely divided by
 // 25.4, they may be equal in a file in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;

@@ -15,8 +15,8 @@ Solid surface_of(std::vector<Vec3> points, std::vector<Triangle> triangles) {
 }
 
 TEST(ThinTriangles, AreFlipped) {
-  // The third point is almost on the edge between the first two; the fourth is on the other side of this
-  // edge.
+  // The third point lies almost on the edge between the first two points. The fourth point is on the
+  // other side of this edge.
   Solid solid = surface_of({{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1.0001}, {1, -1, 1}}, {{0, 1, 2}, {1, 0, 3}});
   EXPECT_NEAR(flip_thin_triangles(solid), 1e-4, 1e-12);
   EXPECT_EQ(solid.triangles, (std::vector<Triangle>{{0, 3, 2}, {3, 1, 2}}));
@@ -59,7 +59,7 @@ TEST(ThinTriangles, AtAnEdgeOfTheFrontAreRemovedIfItMayLoseEdges) {
   EXPECT_EQ(solid.regions.size(), 2);
 }
 
-// Without the thin triangle, the other two triangles would be connected only by the point 2.
+// If the thin triangle were removed, the other two triangles would be connected only by point 2.
 TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   const std::vector<Vec3> points{{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1}, {0, 1, 1}, {2, 1, 1}};
   Solid solid = surface_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}});
@@ -67,9 +67,9 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// The points of a silhouette are almost collinear. Two thin triangles lie outside this line, with a slit
-// between them and the wide triangles. The outer one connects both ends of the slit. After it is removed, the
-// inner one does so, and is removed, too.
+// The points of a silhouette are almost collinear. Two thin triangles lie outside their line, with a slit
+// between them and the wide triangles. The outer thin triangle connects both ends of the slit. After its
+// removal, the inner one connects them, so it is removed, too.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};
@@ -81,8 +81,8 @@ TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   EXPECT_EQ(solid.triangles, wide);
 }
 
-// The points of the silhouette are almost collinear, and so are those of the hull, where the ring of the
-// plate begins. The plate must not intersect itself, neither in millimetres nor in inches.
+// The points of the silhouette are almost collinear. So are the points of the hull, where the ring
+// around the relief begins. The plate must not intersect itself, in millimetres or in inches.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
   for (const Outline outline : {Outline::none, Outline::rectangle})

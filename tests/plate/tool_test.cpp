@@ -27,8 +27,9 @@ Image<float> picture(int width, int height, const auto& z) {
   return image;
 }
 
-// Closes the heights by the definition of a closing. The tool is lowered at every sample, and outside the
-// picture up to its radius. Each sample gets the lowest height that any position of the tool leaves above it.
+// Computes the heights that the tool leaves by the definition of a closing. The tool is lowered at every
+// sample, and also outside the picture, up to its radius. Each sample gets the lowest height above it that
+// any position of the tool leaves.
 Image<float> closed_by_brute_force(const Image<float>& z, double step, const Tool& tool) {
   const int border = std::max(z.width, z.height);
   Image<float> left = z;
@@ -37,7 +38,7 @@ Image<float> closed_by_brute_force(const Image<float>& z, double step, const Too
   float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
   for (const float value : z.pixels)
     if (value == value) lowest = std::min(lowest, value), highest = std::max(highest, value);
-  // A flank ends where it has risen by the range of the picture's heights.
+  // The flank of a V tool ends where it has risen by the range of the picture's heights.
   const double half_angle = tool.angle_deg * std::numbers::pi / 360,
                flank = tool.tip_mm / 2 + static_cast<double>(highest - lowest) * std::tan(half_angle);
   const auto profile = [&](int dx, int dy) {
@@ -90,7 +91,7 @@ TEST(Tool, ProfilesAreBallsPlanesAndCones) {
   EXPECT_EQ(tool_profile(flat, 1.5), 0);
   EXPECT_TRUE(std::isinf(tool_profile(flat, 1.501)));
   EXPECT_NEAR(tool_profile(sharp, 1), std::sqrt(3), 1e-12);
-  // The ball of a rounded tip meets the flank without a step or a crease.
+  // The ball of a rounded tip must meet the flank without a step or a crease.
   const Tool tapered{Tool::Kind::v, 0, 40, 2};
   const double touching = std::cos(20 * std::numbers::pi / 180), e = 1e-6;
   const auto at = [&](double r) { return tool_profile(tapered, r); };
@@ -117,23 +118,23 @@ TEST(CloseByTool, IsTheDefinition) {
     }
 }
 
-// A ball in a groove touches both walls, so the height that remains at the bottom is known.
+// A ball in a groove touches both walls, so the height of the material that remains at the bottom is known.
 TEST(CloseByTool, ABallInAGroove) {
   const double step = .01, half = .3, radius = 1;
   const auto groove = picture(301, 41, [&](int x, int) { return std::abs(x - 150) * step <= half ? 0 : 2; });
   const Image<float> left = close_by_tool(groove, step, ball);
-  // The ball rests on the edges of the walls, at the distance half + one sample from its axis.
+  // The ball rests on the upper edges of both walls. Their distance from its axis is `half` plus one sample.
   const double edge = half + step;
   EXPECT_NEAR(left.pixels[20 * 301 + 150], 2 - (radius - std::sqrt(radius * radius - edge * edge)), 1e-5);
 }
 
-// A ball leaves material of its own shape at the foot of a wall.
+// A ball must leave material of its own shape at the foot of a wall.
 TEST(CloseByTool, ABallAtAWall) {
   const double step = .02;
   const auto wall = picture(200, 21, [&](int x, int) { return x < 100 ? 0 : 3; });
   const Image<float> left = close_by_tool(wall, step, ball);
   for (int x = 20; x < 100; ++x) {
-    const double from_axis = (x - 49) * step;  // from sample 49 on, the axis is too close to the wall
+    const double from_axis = (x - 49) * step;  // the axis cannot come nearer to the wall than sample 49
     const double expected = from_axis > 0 ? 1 - std::sqrt(std::max(0.0, 1 - from_axis * from_axis)) : 0;
     EXPECT_NEAR(left.pixels[10 * 200 + static_cast<std::size_t>(x)], expected, 1e-5) << x;
   }
@@ -145,7 +146,7 @@ TEST(CloseByTool, AVReachesSlopesUpToItsFlank) {
   };
   const Image<float> gentle = valley(1.7), steep = valley(2.5);
   EXPECT_LT(close_by_tool(gentle, .05, sharp).pixels[10 * 161 + 80], 1e-5);
-  // Between steeper walls, the tool only touches their upper ends.
+  // Between steeper walls, the tool touches only the upper ends of the walls.
   EXPECT_NEAR(close_by_tool(steep, .05, sharp).pixels[10 * 161 + 80], 4 * (2.5 - std::sqrt(3)), 1e-4);
 }
 
@@ -159,7 +160,7 @@ TEST(CloseByTool, IsAClosing) {
     const Image<float> once = close_by_tool(z, .2, tool), twice = close_by_tool(once, .2, tool);
     for (std::size_t i = 0; i < z.pixels.size(); ++i) {
       RC_ASSERT(once.pixels[i] >= z.pixels[i]);
-      // V tools are not compared, since their flanks end lower in the second pass.
+      // V tools are not compared, because their flanks end lower in the second pass.
       RC_ASSERT(tool.kind == Tool::Kind::v || std::abs(twice.pixels[i] - once.pixels[i]) < 1e-5F);
     }
     RC_ASSERT(*std::ranges::max_element(once.pixels) == *std::ranges::max_element(z.pixels));
@@ -182,8 +183,8 @@ Solid plate_with_step(double height) {
 // The walls rise by 3 mm within 0.5 mm, around a square of 20 x 20 mm on a plate of 50 x 30 mm.
 TEST(MeasureReach, OfABallAtTheFootOfWalls) {
   const ToolReach reach = measure_reach(plate_with_step(3), ball);
-  // The ball of radius 1 touches the ground at the distance `from_foot` from the foot of the wall, and
-  // remains `above_foot` above the foot.
+  // The ball of radius 1 mm touches the ground at the distance `from_foot` from the foot of the wall.
+  // It stays `above_foot` above the foot itself.
   const double from_foot = std::tan(std::atan(6) / 2), above_foot = 1 - std::sqrt(1 - from_foot * from_foot);
   EXPECT_NEAR(reach.largest_residual_mm, above_foot, 6 * reach.mm_per_sample / 2);
   const double on_ground = from_foot - std::sqrt(2 * .01), on_wall = from_foot * std::cos(std::atan(6));

@@ -90,7 +90,7 @@ TEST(Wrap, AConeLeansAsAsked) {
   EXPECT_LT(wrap.min_radius_mm(), 25);
 }
 
-// The map preserves orientation everywhere, and heights are perpendicular to the bent ground.
+// The map must preserve orientation everywhere. Heights must be perpendicular to the bent ground.
 TEST(Wrap, HeightsStandUprightAndNothingIsMirrored) {
   for (const char* body : bodies) {
     const Wrap wrap = around(body);
@@ -138,7 +138,7 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// The front and the back of the shell keep their radii, even between the corners of triangles.
+// The front and the back of the shell must have their radii everywhere, even between the corners of triangles.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
   const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int width = 30, height = 20;
 
-// Returns a mask of all pixels except those in the hole or within `margin` of the edge.
+// Returns a mask of all pixels that are not in the hole and not within `margin` of the picture's edge.
 PixelMask measured(int margin, bool has_hole = false) {
   Image8 is_measured = filled_image(width, height, std::uint8_t{0});
   for (int y = margin; y < height - margin; ++y)
@@ -34,7 +34,8 @@ TEST(PixelMask, ListsItsPixels) {
   for (const Index i : where.pixels) ASSERT_TRUE(where.mask[i]);
 }
 
-// Rows of the picture run downwards, so y decreases from row to row. The divergence is 0.3 + 0.2.
+// The field is linear, and its divergence is 0.3 + 0.2. Rows of the picture run downwards, so y
+// decreases from row to row.
 TEST(Divergence, IsThatOfALinearField) {
   const PixelMask where = measured(1, true);
   const Image<float> sum = divergence(image([](int x, int y) { return .3 * x + 7 * y; }),
@@ -42,7 +43,7 @@ TEST(Divergence, IsThatOfALinearField) {
   for (Index i = 0; i < sum.size(); ++i) ASSERT_NEAR(sum[i], where.mask[i] ? .5 : 0, 1e-4) << i;
 }
 
-// Pixels in the hole and at the edge are 0 but do not count.
+// Pixels in the hole and at the edge have the value 0, but must not count.
 TEST(MaskedGaussian, KeepsAConstant) {
   const PixelMask where = measured(2, true);
   Image<float> values = image([&](int x, int y) { return where.mask.at(x, y); });
@@ -93,8 +94,8 @@ TEST(OrderKept, CountsPairs) {
   EXPECT_EQ(order_kept({}, {}, {}), 0);
 }
 
-// The heights rise with the depths everywhere except at one cliff. The cliff separates half of the random
-// pairs, but only few near pairs.
+// The heights rise with the depths, except at one cliff. The cliff separates half of all random pairs,
+// but only few near pairs.
 TEST(NearOrderKept, CountsNearPairsAlone) {
   constexpr int size = 400;
   Image8 inside = filled_image<std::uint8_t>(size, size, 0);
@@ -106,9 +107,10 @@ TEST(NearOrderKept, CountsNearPairsAlone) {
       z.at(x, y) = static_cast<float>(x < size / 2 ? x : x - size / 2);
     }
   const PixelMask where(inside);
-  // A pair across the cliff loses its order. The share of such pairs is the mean distance of a pair along x
-  // divided by the width, 400. That distance is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2), divided by
-  // the 0.91 of the pairs that are more than 4 apart along x, because nearer pairs do not count.
+  // A pair across the cliff has the wrong order. The share of these pairs is the mean distance of a pair
+  // along x, divided by the width, 400. The distance of near pairs is between 12 and 40. So its mean along
+  // x is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2). Pairs less than 4 apart along x do not count. They
+  // are 9 %, so the share is divided by 0.91.
   EXPECT_NEAR(near_order_kept(z, depth, where), 1 - .0499, .003);
   EXPECT_NEAR(order_kept(z, depth, where), .75, .01);
   EXPECT_EQ(near_order_kept(depth, depth, where), 1);

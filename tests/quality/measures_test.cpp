@@ -13,7 +13,7 @@ namespace {
 
 using test::surface_of;
 
-// Returns the height of bumps of different sizes on a square of side 2.
+// Returns the height at (x, y) of coarse and fine bumps on a square of side 2.
 double bumps(double x, double y) {
   return .3 * std::sin(3 * x) * std::cos(2 * y) + .02 * std::sin(25 * x) * std::sin(20 * y);
 }
@@ -50,8 +50,8 @@ TEST(Measures, OfTheModelItselfAreTheBest) {
   EXPECT_EQ(ReliefMetrics(bumpy()).shading(depths(bumpy())), m.shading);
 }
 
-// The expected angle is the mean tilt of the points. Since they are uniform in x and y, this is also the mean
-// over the picture.
+// The expected angle is the mean tilt of the points. The points are uniform in x and y, so this is also the
+// mean over the picture.
 TEST(Measures, AngleOfALevelReliefIsTheMeanTilt) {
   std::vector<double> level(bumpy().points.size(), 0.0);
   level[0] = 1e-6;  // gives the relief a height
@@ -116,8 +116,8 @@ TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
   EXPECT_LT(judge.measure(ramp).jump_step, .05);
 }
 
-// All points except those of the boundary have the same height. So there is a step at the silhouette and no
-// step inside, even where the front sheet extends beyond the other sheet.
+// All points except those of the boundary have the same height. So there is a step at the silhouette, but
+// no step inside, even where the front sheet extends beyond the other one.
 TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   Cloud front = test::sheet(10000, .5, 3, 9);
   for (Vec3& p : front.points) p.x() += 1;
@@ -130,8 +130,8 @@ TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   EXPECT_EQ(m.jump_step, 0);
 }
 
-// Pixels near the silhouette are not measured. The points are so dense that no triangle of the step extends
-// beyond this zone.
+// Pixels near the silhouette are not measured. The points are dense, so no triangle of the step extends
+// beyond the unmeasured zone.
 TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
   Cloud grid;
   test::Random random(8);

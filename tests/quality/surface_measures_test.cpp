@@ -14,13 +14,13 @@ using test::surface_of;
 
 constexpr double pi = std::numbers::pi;
 
-// Returns a button of radius 1.
+// Returns the surface of a button of radius 1.
 const Surface& disc() {
   static const Surface surface = surface_of(test::button(40000, .85, .15));
   return surface;
 }
 
-// Returns heights that rise inwards from 0 at radius 1. The slope is a function of the azimuth.
+// Returns heights that rise inwards, from 0 at radius 1. Their slope is a function of the azimuth.
 template <typename Slope>
 std::vector<double> rising(const Surface& surface, Slope slope) {
   std::vector<double> z;
@@ -37,9 +37,9 @@ TEST(SurfaceMeasures, AConeHasNoFray) {
   EXPECT_EQ(measures.fray(rising(disc(), [](double) { return .5; })).jump_deg, 0);
 }
 
-// The tilt is a sine along the rim, and a triangle is a tenth of a wavelength long. Fray is the deviation of
-// the tilt from its moving mean over 25 triangles. That mean is a sine with 1 / (25 sin(pi / 10)) times the
-// amplitude.
+// The tilt is a sine along the rim, whose wavelength is ten triangles. Fray is the deviation of the tilt
+// from its moving mean over 25 triangles. The moving mean is a sine, too; its amplitude is that of the tilt
+// times 1 / (25 sin(pi / 10)).
 TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   const double rims = 2 * pi / (.75 * disc().rho), amplitude = .1;
   const int waves = static_cast<int>(rims / 10);
@@ -51,7 +51,7 @@ TEST(SurfaceMeasures, FrayOfWavesIsTheirRootMeanSquare) {
   EXPECT_NEAR(fray, rest * amplitude / std::sqrt(2) * 180 / pi, .2);
 }
 
-// Slow changes of the tilt do not count as fray.
+// The tilt changes slowly along the rim. Slow changes must not count as fray.
 TEST(SurfaceMeasures, FrayLeavesOutTheSmoothCourse) {
   const SurfaceMeasures measures(disc());
   EXPECT_LT(measures.fray(rising(disc(), [](double angle) { return .5 + .1 * std::sin(3 * angle); }))
@@ -64,7 +64,7 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
   const SurfaceMeasures measures(sheets);
   std::vector<double> z;
   for (const Vec3& p : sheets.points) z.push_back(.2 * (p + sheets.centre).head<2>().norm());
-  EXPECT_GT(measures.fray(z).jump_deg, 0);  // since the circle consists of chords
+  EXPECT_GT(measures.fray(z).jump_deg, 0);  // the circle consists of chords
   EXPECT_LT(measures.fray(z).jump_deg, .5);
   test::Random random(5);
   std::vector<double> noisy = z;
@@ -72,8 +72,8 @@ TEST(SurfaceMeasures, FrayAtAJumpGrowsWithNoise) {
   EXPECT_GT(measures.fray(noisy).jump_deg, 3);
 }
 
-// Between neighbouring triangles on a ball, the normal turns by the distance of their centres divided by the
-// radius.
+// Between neighbouring triangles on a ball, the normal turns by an angle: the distance of the triangles'
+// centres divided by the ball's radius.
 TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   const Surface cap = surface_of(test::sheet(40000, .5, 0));
   const SurfaceMeasures measures(cap);
@@ -84,7 +84,7 @@ TEST(SurfaceMeasures, FacetAngleIsThatOfTheTriangles) {
   }
   EXPECT_LT(measures.facet_angle_deg(plane), 1e-3);
   const double of_rho = measures.facet_angle_deg(ball) * pi / 180 * 2 / cap.rho;
-  EXPECT_GT(of_rho, .8);  // for equilateral triangles with sides of rho it would be 0.58
+  EXPECT_GT(of_rho, .8);  // 0.58 is the value of equilateral triangles with sides of rho
   EXPECT_LT(of_rho, 2.5);
 }
 

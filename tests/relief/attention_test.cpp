@@ -19,7 +19,7 @@
 namespace relievo {
 namespace {
 
-// Returns a square of side 2 with fine waves on its left half and none on its right half, but for a wide bump.
+// Returns a square of side 2. Its left half has fine waves, its right half none except a wide bump.
 Cloud waves_on_the_left(std::size_t n = 30000) {
   const auto share = [](double x) {
     return x < -.1 ? 1. : x > .1 ? 0. : (1 - std::sin(5 * std::numbers::pi * x)) / 2;
@@ -68,8 +68,8 @@ std::vector<double> means_of(const Surface& surface) {
   return sums;
 }
 
-// The attention of a model does not depend on its size and position, nor on how it is turned in space if the viewer
-// turns with it. Rounding may change which few points are visible.
+// The attention of a model must not depend on the model's size and position. Nor must it depend on the model's rotation
+// in space, if the viewer is rotated with it. Rounding may change which points are visible, but only for a few.
 TEST(Attention, MovesWithTheModel) {
   const Cloud cloud = waves_on_the_left(20000);
   const Mat3 turn = (Eigen::AngleAxisd(.7, Vec3(1, 2, 3).normalized())).toRotationMatrix();
@@ -124,7 +124,7 @@ TEST(AttentionWeights, StayBetweenNothingAndAll) {
   }
 }
 
-// Returns the root mean square of the finest layer of the relief's slopes where `is_there` holds.
+// Returns the root mean square of the finest layer of the relief's slopes, at the points for which `is_there` is true.
 template <typename IsThere>
 double contrast(const Surface& surface, std::span<const double> heights, IsThere&& is_there) {
   const std::vector<float> z(heights.begin(), heights.end());
@@ -158,7 +158,7 @@ TEST(AttentionWeights, RaiseSlopesWhereAttentionIsHighAndLowerThemElsewhere) {
   EXPECT_GT(higher, 3000U);
   EXPECT_GT(lower, 3000U);
   EXPECT_LT(wrong,
-            (higher + lower) / 100);  // if the fine and the middle layer point in opposite directions
+            (higher + lower) / 100);  // fine and middle layer may oppose each other
 }
 
 TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A surface with the system and the metrics that baselines need.
+// A surface, with the equation system and the quality metrics that baselines need.
 struct Seen {
   Surface surface;
   HeightSystem system;
@@ -39,7 +39,7 @@ TEST(BaselineGrid, HasTheHeightAskedAndLiesOnTheBase) {
   }
 }
 
-// The grid includes the fixed parameters of the methods.
+// The grid includes the fixed parameters of the methods, so its best relief cannot be worse.
 TEST(BaselineGrid, IsAtLeastAsGoodAsTheFixedParameters) {
   const Seen seen(test::bumps_behind_a_ring(8000));
   const auto& [surface, system, metrics] = seen;

@@ -20,8 +20,8 @@ Cloud roof(double slope, std::size_t n = 30000) {
       [=](double x, double) { return Vec2(x > 0 ? -slope : slope, 0); });
 }
 
-// Returns the range of the difference between the heights and f away from the rim, as a fraction of the
-// relief's height.
+// Returns the range of the difference between the heights and f, as a fraction of the relief's height.
+// Points near the rim do not count.
 template <typename F>
 double misfit(const Surface& surface, const Relief& relief, F f) {
   double low = 1e300, high = -1e300;
@@ -43,8 +43,8 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
-// All points of a level face have the same depth, and all points of a cloud of four are on the boundary. So
-// no method gives either cloud a height.
+// All points of a level face have the same depth. All points of a cloud of four points are on the boundary.
+// So no method gives either cloud a height.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
   Cloud four;
   four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
@@ -87,9 +87,9 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
   EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
 }
 
-// The expected heights are computed as by Weyrich et al.: attenuated gradients are integrated, with another
-// solver than that of the library, and the result is scaled. A sphere has no depth jumps, so all edges have
-// the same weight.
+// The expected heights are computed as by Weyrich et al.: attenuated gradients are integrated, and the
+// result is scaled. The test uses another solver than the library. A sphere has no depth jumps, so all
+// edges have the same weight.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
   const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
@@ -108,8 +108,8 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
 }
 
-// All slopes are equal, so attenuation only scales the relief. Beside the outline and the ridge normals are
-// interpolated, so their slopes are equal only to about three digits.
+// All slopes are equal, so attenuation only scales the relief. Beside the outline and the ridge, normals
+// are interpolated, so there the slopes are equal only to about three digits.
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = test::prepared(roof(.5));
   const GradientOptions options{.attenuation = 5, .steepest_kept = 100, .band_weights = {1}};
@@ -146,12 +146,13 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   EqualiseOptions options;
   options.windows = 1;
   options.picture_px = 128;
-  options.largest_window_px = 1024;  // the whole picture
+  options.largest_window_px = 1024;  // the window is the whole picture
   const Relief relief = equalised_relief(surface, 1, options);
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
 }
 
-// The cloud consists of two gentle slopes. Equalisation must shrink the empty range of depths between them.
+// The cloud consists of two gentle slopes at different depths. Equalisation must shrink the range between
+// these depths, which has no points.
 TEST(Equalise, ShrinksDepthsThatNothingHas) {
   const Cloud cloud = test::joined(
       test::height_field(
@@ -182,8 +183,8 @@ TEST(BaseAndDetail, WithoutAmplificationIsLinear) {
   EXPECT_LE(test::largest_difference(base.heights, linear.heights), 1e-9);
 }
 
-// The surface is a fine wave on a coarse wave. The Gaussian leaves the coarse wave in the base, so only the
-// fine wave is amplified.
+// The surface is a fine wave on a coarse wave. The Gaussian leaves the coarse wave in the base, so the
+// method amplifies only the fine wave.
 TEST(BaseAndDetail, AmplifiesWhatIsFine) {
   const auto z = [](double x, double) { return .2 * std::cos(3 * x) + .004 * std::cos(60 * x); };
   const auto gradient = [](double x, double) {

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// Returns a hill of the given height on a square around the origin, at the depth z.
+// Returns a hill of the given height on a square around the origin, at depth z. `half` is half the side.
 Cloud hill(double height, double half, double z, std::uint64_t seed) {
   const auto f = [=](double x, double y) { return height * std::exp(-8 * (x * x + y * y) / (half * half)); };
   return test::height_field(
@@ -27,7 +27,7 @@ std::vector<double> mimicking(const Surface& surface, double height) {
   return value_of(mimicking_heights(surface, height));
 }
 
-// If the silhouette of a model is level and the height is large enough, the relief equals the model. The
+// If the silhouette of a model is level and the height is sufficient, the relief equals the model. The
 // solver stops when the energy is almost minimal, so level parts may be slightly above the lower bound.
 TEST(Mimicking, WithEnoughHeightIsTheModel) {
   const Surface surface = test::surface_of(hill(.4, 1, 0, 5));
@@ -49,7 +49,7 @@ TEST(Mimicking, UsesTheHeightAndNoMore) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// Pieces in front of others use the whole height, however far in front they are.
+// A piece in front of another one uses the whole height, however far in front it is.
 TEST(Mimicking, MovesPiecesFreely) {
   std::vector<std::vector<double>> heights;
   for (const double distance : {1.0, 3.0}) {
@@ -65,7 +65,7 @@ TEST(Mimicking, HasTheSameBitsForAnyNumberOfThreads) {
   test::expect_same_for_any_threads([&] { return mimicking(surface, .05); });
 }
 
-// Heights that do not reach a bound are those of equation (9) without bounds.
+// If heights do not reach a bound, they are the heights of equation (9) without bounds.
 TEST(Bounded, WithEnoughHeightSolvesTheEquations) {
   const Surface surface = test::surface_of(test::sphere(20000, 1));
   const HeightSystem system =

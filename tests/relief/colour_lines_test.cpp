@@ -13,7 +13,7 @@
 namespace relievo {
 namespace {
 
-// Returns a cloud that is dark where is_dark(point), and white elsewhere.
+// Returns the cloud with dark colours where is_dark(point) is true, and white elsewhere.
 template <typename IsDark>
 Cloud coloured(Cloud cloud, IsDark is_dark) {
   for (const Vec3& p : cloud.points)
@@ -71,7 +71,8 @@ TEST(SinkLines, KeepTheHeightIfTheTopIsOnALine) {
   const std::vector<float> lines{1, 0, .5F};
   std::vector<double> z{1, .7, .4};
   sink_lines<double>(lines, .2, z);
-  // The heights are multiplied by 1.2 before lines are sunk: 1.2 - 0.2, 0.84, 0.48 - 0.1.
+  // The heights are multiplied by 1.2, then lines are sunk. The results are 1.2 - 0.2, 0.84 and
+  // 0.48 - 0.1.
   EXPECT_NEAR(z[0], 1, 1e-6);
   EXPECT_NEAR(z[1], .84, 1e-6);
   EXPECT_NEAR(z[2], .38, 1e-6);
@@ -100,7 +101,7 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
     EXPECT_NEAR(sunk.heights[i], std::max(plain.heights[i] - depth, 0.0), 1e-6);
     EXPECT_NEAR(static_cast<double>(frame.heights[i]),
                 std::max(static_cast<double>(level.heights[i]) - depth, 0.0),
-                2e-5);  // the highest point may be on a line
+                2e-5);  // tolerance: the highest point may be on a line
   }
 }
 

@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// Points in the plane and their distances from the nearest boundary point. ring() scatters them over a ring,
-// more densely on the left.
+// Points in the plane, and their distances from the nearest boundary point. ring() scatters points over a
+// ring, more densely on the left.
 struct Figure {
   std::vector<Vec2> points;
   std::vector<float> distance;
@@ -108,7 +108,7 @@ TEST(ControlPoints, DoNotDependOnTheOrderOfThePoints) {
   EXPECT_EQ(before, places(figure));
 }
 
-// Points and distances are random. Many points are in clusters, and some coincide.
+// Points and distances are random. Many points form clusters, and some coincide.
 TEST(ControlPoints, CoverAnything) {
   ASSERT_TRUE(rc::check([] {
     const auto cells = *rc::gen::container<std::vector<std::pair<int, int>>>(

@@ -17,8 +17,8 @@ struct Scene {
   Cloud cloud;
 };
 
-// Both parts are tilted or round, since level parts would show no step with any method. The sheet has
-// `points` points.
+// Returns clouds in which one part is in front of another one. Both parts are tilted or round,
+// because level parts would show no step with any method. The rear sheet has `points` points.
 std::vector<Scene> scenes(std::size_t points) {
   const auto before = [](const Cloud& back, const Cloud& front) {
     return test::joined(back, test::moved(front, Vec3(0, 0, 3)));
@@ -30,8 +30,8 @@ std::vector<Scene> scenes(std::size_t points) {
           {"hemisphere before a sheet", before(sheet, test::sphere(points, .5))}};
 }
 
-// The steps along edges across deep depth jumps, as fractions of the relief's height. An edge is inverted if
-// its front end is lower than its back end by more than 3 % of the height.
+// Statistics of the steps along edges that cross deep depth jumps, as fractions of the relief's height. An
+// edge is inverted if its front end is lower than its back end by more than 3 % of the height.
 struct Steps {
   double mean = 0, most = 0, inverted = 0;
 };
@@ -54,7 +54,7 @@ Steps steps_of(const Surface& surface, const Relief& relief) {
   return {sum / edges, most, inverted / edges};
 }
 
-// A jump only leaves a height difference between neighbours, which decreases as the points become denser.
+// A jump leaves only a height difference between neighbouring points, which decreases as the points become denser.
 TEST(DepthJumps, VanishByThePapersMethod) {
   const View view = View().for_paper();
   const auto steps_in = [&](const Cloud& cloud) {
@@ -71,7 +71,7 @@ TEST(DepthJumps, VanishByThePapersMethod) {
   }
 }
 
-// The bounds are values that the other methods reach. Layered reliefs keep steps on purpose.
+// The other methods just keep these bounds. Layered reliefs have steps on purpose.
 TEST(DepthJumps, LeaveBoundedStepsByOtherMethods) {
   for (const auto& [name, cloud] : scenes(15000)) {
     const ReliefModel model = test::prepared(cloud);

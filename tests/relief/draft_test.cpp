@@ -27,7 +27,7 @@ Cloud figure(std::size_t n = 12000) {
   return test::joined(test::torus(n, 1.5, .4), test::sphere(n, .8));
 }
 
-// Returns a relief with the heights f(x, y), and 0 at the boundary.
+// Returns a relief with the heights f(x, y), but 0 at the boundary.
 template <typename F>
 Relief relief_of(const ReliefModel& model, F f) {
   Relief relief;
@@ -69,8 +69,8 @@ double steepest(const std::vector<Slope>& slopes) {
   return most;
 }
 
-// Reads triangles from an STL file as other programs do. Returns the angle of the steepest triangle in
-// degrees; 90 if a triangle does not face upwards.
+// Reads triangles from an STL file as other programs do. Returns the slope angle of the steepest
+// triangle in degrees; 90 if a triangle does not face upwards.
 double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t triangles) {
   double most = 0;
   for (std::size_t t = 0; t < triangles; ++t) {
@@ -78,7 +78,7 @@ double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t trian
     std::memcpy(v.data(), file.data() + 84 + 50 * t + 12, sizeof v);
     const auto corner = [&](std::size_t i) { return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]); };
     const Slope s = slope_of(corner(0), corner(1), corner(2));
-    if (v[2] == v[5] && v[5] == v[8]) continue;  // level; rounding may have reversed a sliver
+    if (v[2] == v[5] && v[5] == v[8]) continue;  // level; rounding may have reversed a thin triangle
     most = std::max(most, s.area > 0 ? std::atan(s.slope.norm()) * 180 / std::numbers::pi : 90.0);
   }
   return most;
@@ -101,7 +101,7 @@ TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   EXPECT_EQ(limited->heights, free->heights);
 }
 
-// If a cone is steeper than the limit, the nearest relief is the cone whose slope is the limit.
+// If a cone is steeper than the limit, the nearest relief within the limit is the cone whose slope is the limit.
 TEST(Draft, ACone) {
   const ReliefModel model = prepared(test::sheet(20000, 1, 0));
   const auto cone = [](double slope) {
@@ -110,7 +110,7 @@ TEST(Draft, ACone) {
   const Relief wanted = relief_of(model, cone(1));
   const Relief limited = limit_draft(model, relief_of(model, cone(2)), {1}).value();
   EXPECT_LT(test::largest_difference(limited.heights, wanted.heights),
-            .02);  // the points are 0.014 apart, so none is at the tip
+            .02);  // the points are 0.014 apart, so no point is at the tip
   EXPECT_LT(limited.height, .8);
 }
 
@@ -124,8 +124,8 @@ TEST(Draft, APyramidOnAllOfTheBase) {
   EXPECT_LT(test::largest_difference(limited.heights, wanted.heights), .02);
 }
 
-// z is the nearest relief under a convex limit if and only if, for every relief y under the limit, the sum of
-// area (slope of z - given slope) . (slope of y - slope of z) is not negative.
+// z is the nearest relief within a convex limit if and only if the following sum is not negative for any
+// relief y within the limit: the sum of area (slope of z - given slope) . (slope of y - slope of z).
 TEST(Draft, NoOtherReliefUnderTheLimitIsNearer) {
   const ReliefModel model = prepared(test::sheet(3000, 1, 0));
   const Relief given = relief_of(model, [](double x, double y) {
@@ -187,7 +187,7 @@ double largest_named(const Result<Relief>& refused) {
 TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   const ReliefModel model = prepared(figure(6000));
   const Shape shape = default_shape(Method::layered);
-  for (const double height : {1.2, 50.0}) {  // without the limit, only the first is reachable
+  for (const double height : {1.2, 50.0}) {  // without the limit, 1.2 is reachable but 50 is not
     const auto made = make_with_draft(model, {Method::layered, shape, height, 10}, {.4});
     expect_error(made, ErrorKind::geometry);
     const double largest = largest_named(made) / 10;
@@ -196,7 +196,7 @@ TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   }
 }
 
-// The error message states the largest height, which must be reachable whatever height was requested.
+// The error message states the largest height. This height must be reachable, whatever height was requested.
 TEST(Draft, TheLargestHeightOfEveryMethodCanBeReached) {
   const ReliefModel model = prepared(figure(3000));
   for (const MethodInfo& info : methods)
@@ -259,7 +259,7 @@ TEST(Draft, CanBeCancelled) {
             ErrorKind::cancelled);
 }
 
-// Measures the draft angle in files, after all steps that may change a front.
+// Measures the draft angle in written files, because later steps may change a front.
 TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = prepared(figure());
   ReliefOptions options;
@@ -326,7 +326,7 @@ TEST(SteepestSlope, OfARampAndOfAWall) {
   EXPECT_TRUE(std::isinf(steepest_slope(solid)));
 }
 
-// The points are so dense and so far from the origin that rounding to single precision makes needles steeper.
+// The points are so dense, and so far from the origin, that rounding to single precision makes thin triangles steeper.
 TEST(HoldDraft, TakesWhatRoundingAdds) {
   ASSERT_TRUE(rc::check([] {
     test::Random random(*rc::gen::arbitrary<std::uint64_t>());
@@ -360,7 +360,7 @@ TEST(HoldDraft, RefusesAFrontThatIsTooSteep) {
 }
 
 TEST(HoldDraft, RefusesWhatRoundingDoesBetweenPointsThatStay) {
-  Solid solid;  // all of its points are above walls, so they must not move
+  Solid solid;  // all points are above walls, so they must not move
   solid.points = {{20.0011017003, 20.0058829037, 3.00011886031},
                   {20.0012021058, 20.0057975004, 3},
                   {20.0012861059, 20.0059675612, 3.00011886031}};

@@ -1,4 +1,4 @@
-// Tests frames of the generated samples, and of real scans if these are available.
+// Tests frames of the generated samples. Also tests frames of real scans, if these are available.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -53,7 +53,8 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   }
 }
 
-// The locked heights are fractions of L_d. A frame that is lower must report that its height is out of reach.
+// The locked heights are fractions of L_d. If a frame is lower than its locked height, it must report that
+// the height is out of reach.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
   const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);

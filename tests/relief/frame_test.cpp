@@ -46,7 +46,7 @@ TEST(Frame, AgreesWithTheExactRelief) {
       }
 }
 
-// The expected normals are sums of the cross products of the triangles around a point.
+// The expected normal of a point is the sum of the cross products of the point's triangles, normalised.
 TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
   const Frame frame = frame_of({});
   const Surface& surface = model().surface();
@@ -80,8 +80,8 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
   }
 }
 
-// Expects that a locked height stays the same while other options change. `shares` are the heights as
-// fractions of the diagonal.
+// Expects that a locked height stays the same while other options change. `shares` are the locked
+// heights as fractions of the diagonal.
 void expect_locked_heights(const ReliefModel& m, Style style, std::span<const double> shares) {
   FrameMaker maker(m);
   Frame frame;
@@ -139,7 +139,7 @@ TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
 }
 
 TEST(Frame, TellsThatAHeightIsOutOfReach) {
-  const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // has no depth jumps
+  const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // a sphere has no depth jumps
   FrameMaker maker(smooth);
   Frame frame;
   FrameOptions options{Shape{}};
@@ -153,7 +153,8 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
   EXPECT_LT(frame.height, highest);
 }
 
-// A wider boundary makes the rim less steep. The inner part becomes lower with the rim, but keeps its slopes.
+// A wider boundary makes the rim less steep. The inner part becomes lower together with the rim, but its
+// slopes do not change.
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
   FrameOptions options{Shape{}};
   const Frame narrow = frame_of(options);

@@ -14,7 +14,7 @@ namespace {
 
 using test::surface_of;
 
-// Returns a level strip along y. It is so long that far from its ends, all values depend only on x.
+// Returns a level strip along y. It is so long that, far from its ends, all values depend only on x.
 Surface strip(double half_width) {
   Cloud cloud = test::sheet(60000, 1, 0);
   for (Vec3& p : cloud.points) p.x() *= half_width;
@@ -49,8 +49,8 @@ std::vector<Real> corrected(const Surface& surface, std::vector<Real> heights, d
   return heights;
 }
 
-// The correction lifts the centre, where the heights are below the base. The less stiff it is at the
-// silhouette, the more the silhouette is lifted, too.
+// The heights at the centre are below the base, so the correction lifts the centre. The smaller its
+// stiffness at the silhouette, the more it lifts the silhouette, too.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface);
@@ -68,8 +68,8 @@ TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   }
 }
 
-// A dome seen along its axis is rotationally symmetric. So must be its correction, although the silhouette
-// crosses the lattice at all angles.
+// A dome seen along its axis is rotationally symmetric. Its correction must be symmetric, too, although
+// the silhouette crosses the lattice at all angles.
 TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface);
@@ -121,8 +121,8 @@ TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
   }
 }
 
-// With fewer points, the cells of the lattice are wider, and cells without nearby points are bridged. The
-// heights must stay about the same, although wide cells round the distances of near pairs.
+// With fewer points, the cells of the lattice are wider, and the field continues across cells without points
+// nearby. The heights must stay about the same, although wide cells round the distances of near pairs.
 TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   const auto mean = [](std::size_t points) {
     const Surface surface = bumpy(points);
@@ -145,7 +145,7 @@ TEST(HeightCorrection, IsProportionalToHeights) {
   for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(twice[i], 2 * z[i], 1e-6);
 }
 
-// Ripples that are finer than the lattice's cells do not change the correction, so they stay in the heights.
+// Ripples finer than the lattice's cells do not change the correction, so the corrected heights must still have them.
 TEST(HeightCorrection, KeepsFineDetail) {
   const Surface surface = bumpy();
   const std::vector<double> plain = depths(surface);
@@ -160,8 +160,8 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// A small sheet is in front of a large one, and both have the same heights. The correction raises the near
-// sheet above the far one at their common edge. It does not change a level surface.
+// A small sheet is in front of a large one, and the heights of both are the same. The correction must
+// raise the near sheet above the far one at their common edge. It must not change a level surface.
 TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
@@ -177,7 +177,7 @@ TEST(HeightCorrection, SetsNearPartsBeforeFarOnes) {
     ASSERT_NEAR(height, .05, 1e-4);
 }
 
-// At the silhouette, the field rises to about the share `planes` of the height, even if all heights are 0.
+// At the silhouette, the field must rise to about the share `planes` of the height, even if all heights are 0.
 TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   const Surface surface = surface_of(test::button(60000, 1, .15));
   const HeightCorrection correction(surface);
@@ -197,7 +197,7 @@ TEST(HeightCorrection, KeepsTheSilhouetteOffTheBase) {
   }
 }
 
-// The correction lifts the nearer sheet. It bends at the jump where this sheet ends, and hardly elsewhere.
+// The correction lifts the nearer sheet. It must bend at the depth jump where this sheet ends, and hardly elsewhere.
 TEST(HeightCorrection, IsHingedAtJumps) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
@@ -215,7 +215,8 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
-  // The ratio is 3.6 with rows of points beside the jump. With scattered points only, it would be above 4.
+  // The ratio of the bends is 3.6, because rows of points stand beside the jump. With scattered points
+  // alone, it would be above 4.
   EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
   EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }
@@ -227,7 +228,7 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
   EXPECT_LE(test::largest_difference(single, exact), 2e-6);
 }
 
-// The boundary stays at 0, and the relief has exactly the requested height.
+// The boundary must stay at 0, and the relief must have exactly the requested height.
 TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
   const HeightCorrection correction(surface);
@@ -235,7 +236,7 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as in solutions of equation (9)
+    if (surface.boundary.is_boundary[i]) z[i] = 0;  // solutions of equation (9) are 0 there
   correction.compress_heights<double>({z, weight, {.15}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);

@@ -5,10 +5,9 @@
 namespace relievo {
 namespace {
 
-// Returns the height 5 (1 - exp(-u)), which grows with u as the height of a relief does, and counts the
-// calls.
+// Returns the height 5 (1 - exp(-u)), and counts the calls. This function grows with u as the height of a relief does.
 struct Growth {
-  double last = 0;  // height at the last call
+  double last = 0;  // the height at the last call
   int calls = 0;
 
   double operator()(double log_u) {
@@ -33,13 +32,13 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   HeightSearch::Track track;
   EXPECT_FALSE(HeightSearch(5.1, 1e-5).track(track, tracked));
   EXPECT_EQ(tracked.last, 5);
-  EXPECT_EQ(track.log_u, 0);  // the next search starts from the last success
+  EXPECT_EQ(track.log_u, 0);  // the next search must start from the last success
   EXPECT_FALSE(HeightSearch(5.1, .003).climb(0, 4.5, climbed));
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
-// If points without curvature get their slope only at u = infinity, the height jumps there. A search for a
-// height within this jump ends above the jump.
+// If points have no curvature, they may get their slope only at u = infinity, where the height then jumps.
+// A search for a height within this jump must end above the jump.
 TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   double last = 0;
   const auto leaping = [&](double log_u) {
@@ -55,8 +54,8 @@ TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
   EXPECT_FALSE(HeightSearch(6, 1e-5).bracket(leaping));
 }
 
-// If some slopes are not compressed, all heights may be greater than the requested one. The search then ends
-// at the lowest height.
+// If some slopes are not compressed, all heights may be above the requested one. The search must then end at
+// the lowest height.
 TEST(HeightSearch, EndsAboveAHeightThatIsBelowAll) {
   double last = 0;
   const auto high = [&](double x) { return last = 4.1 + 1 / (1 + std::exp(-x)); };
@@ -76,7 +75,7 @@ TEST(HeightSearch, TracksSmallChangesInTwoCalls) {
   }
 }
 
-// Once the search knows how the height grows, a change within the tolerance takes one call.
+// Once the search knows how the height grows with u, a change within the tolerance must take only one call.
 TEST(HeightSearch, TracksWithinATolerance) {
   HeightSearch::Track track;
   int calls = 0, heights = 0;
@@ -110,8 +109,8 @@ TEST(HeightSearch, ClimbsToWhatIsNotTooLow) {
   }
 }
 
-// If a caller's relief failed, it ends the search by returning the requested height. There must be no further
-// call.
+// If making a relief failed, the caller ends the search by returning the requested height. There must be no
+// further call.
 TEST(HeightSearch, EndsEarlyWhenItIsGivenTheHeight) {
   for (const int failing : {1, 2, 3}) {
     int calls = 0;

@@ -63,7 +63,7 @@ std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec
 }
 
 // Along an edge, the rise of a quadratic function is exactly the mean of the slopes at both ends. So the
-// heights are those of the paraboloid up to rounding, for any weights of edges.
+// heights must be those of the paraboloid up to rounding, for any weights of the edges.
 TEST(Heights, OfAParaboloidAreExact) {
   const DiscCase disc(5000);
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
@@ -88,7 +88,7 @@ TEST(Heights, InSinglePrecisionAgreeWithDouble) {
   EXPECT_LE(test::largest_difference(z, truth), 1e-5 * (highest - lowest));
 }
 
-// Expects that the heights equal an independent solution of equation (9). Returns the heights.
+// Expects that the heights equal those of an independent solution of equation (9). Returns the heights.
 std::vector<double> expect_least_squares(const DiscCase& disc, const std::vector<float>& weights) {
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(p.y() + .3, p.x() * p.x()); });
   std::vector<double> z = heights_of(disc.system(weights), slopes);
@@ -157,9 +157,8 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
 }
 
-// The memory of a matrix does not include a pattern that it shares with another matrix, so smaller memory
-// proves that the pattern is shared. Boundary points have no unknown; the test puts them first, and then
-// last.
+// The memory of a matrix does not include a pattern that the matrix shares with another one. So smaller memory proves
+// that the pattern is shared. Boundary points have no unknown. The test puts them first, and then last.
 TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
   for (const bool is_boundary_last : {false, true}) {
     DiscCase disc(500);

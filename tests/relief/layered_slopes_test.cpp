@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Points of all kinds: level, steep, and steeper than the steepest allowed slope.
+// Points with all kinds of normals: level, steep, and steeper than the steepest allowed slope.
 struct Points {
   std::vector<Vec3f> normals;
   std::vector<float> k, boundary_weight;
@@ -33,8 +33,8 @@ struct Points {
   }
 };
 
-// Compares slopes that are computed eight at a time, with and without AVX2, with slopes computed one by one.
-// The number of points is not a multiple of eight.
+// Computes slopes eight points at a time, with and without AVX2, and compares them with slopes computed one
+// by one. The number of points is not a multiple of eight.
 void expect_slopes_of_single_points(const Shape& shape) {
   Points points(10003);
   if (shape.attention > 0) points.input.attention = points.attention;

@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using test::surface_of;
 
-// Returns a wave of that wavelength along x with slopes up to 0.2, on a square of side 2.
+// Returns a wave of the given length along x, with slopes up to 0.2, on a square of side 2.
 Surface wavy(double length) {
   const double k = 2 * std::numbers::pi / length, a = .2 / k;
   return surface_of(test::height_field(
@@ -28,7 +28,7 @@ std::vector<PointLayers> layers_of(const Surface& surface) {
   return normal_layers(surface.points, surface.normals);
 }
 
-// Returns the root mean square of a layer, away from the rim.
+// Returns the root mean square of a layer. Points near the rim do not count.
 template <typename Layer>
 double size_of(const Surface& surface, Layer layer) {
   const std::vector<PointLayers> layers = layers_of(surface);
@@ -75,7 +75,7 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
-// -(n_x, n_y) points uphill. faded_xy() returns this vector times 1 / (1 + (slope / 12)^8).
+// -(n_x, n_y) points uphill. faded_xy() must return this vector times 1 / (1 + (slope / 12)^8).
 TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
   for (const double slope : {0.0, .5, 3.0, 12.0, 24.0}) {
     const Vec3 normal = Vec3(-.6 * slope, .8 * slope, 1).normalized();
@@ -142,12 +142,12 @@ TEST(LayerWeights, OfAShapeAreThoseOfItsHeightShare) {
   EXPECT_FLOAT_EQ(weights.coarse, of_layer(20.5));
   EXPECT_FLOAT_EQ(weights.broad, of_layer(55));
   EXPECT_FLOAT_EQ(weights.height_share, .6F);
-  shape.height_share.reset();  // the default then applies
+  shape.height_share.reset();  // the default applies again
   EXPECT_FLOAT_EQ(layer_weights(shape).height_share, static_cast<float>(1 - .6 * std::exp(-.2 * 1.5)));
 }
 
-// With weights of 1, the slope is that of the surface. Other weights multiply x and y of the normal, and the
-// slope is that of the new normal.
+// With weights of 1, the slope is that of the surface. Other weights multiply the x and y of the normal; the
+// slope is then that of the changed normal.
 TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   PointLayers layers;
   layers.fine = Vec2f(.3F, 0);
@@ -161,8 +161,8 @@ TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   EXPECT_EQ(flat.norm(), 0);
 }
 
-// With a height share t, the slope is (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where (x, y) is the weighted sum.
-// This anticipates the tilt that remains after compression.
+// With a height share t, the slope must be (x, y) / sqrt(1 - t^2 (x^2 + y^2)), where (x, y) is the weighted
+// sum. The root anticipates the tilt that remains after compression.
 TEST(LayeredSlope, AnticipatesTheMembrane) {
   PointLayers layers;
   layers.coarse = Vec2f(.6F, -.2F);

@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// Returns the normal that is tilted by the first angle towards x, and then by the second angle towards y.
+// Returns the normal that results from tilting the z axis by the first angle towards x, and then by the
+// second angle towards y.
 Vec3f leaning(double to_x, double to_y = 0) {
   const Eigen::AngleAxisd first(to_x, Vec3::UnitY()), second(-to_y, Vec3::UnitX());
   return (first * second * Vec3::UnitZ()).cast<float>();
@@ -30,7 +31,7 @@ TEST(WeightedNormal, KeepsSharesOfAngles) {
   expect_near(weighted_normal(base, base, {.5, 1}), leaning(.4));
 }
 
-// Fine waves do not belong to the base, but a crease of 90 degrees does.
+// The base must have no fine waves, but must have a crease of 90 degrees.
 TEST(BaseNormals, AreSmoothByPieces) {
   const auto slope = [](double x, double y) {
     return Vec2((x > 0 ? -1 : 1) + .1 * std::cos(80 * x), .1 * std::cos(80 * y));

@@ -28,7 +28,7 @@ Mesh box(const Vec3& least, const Vec3& most) {
   return mesh;
 }
 
-// Returns the letter T, made of two bars with level faces.
+// Returns a mesh of the letter T, made of two bars with level faces.
 Mesh letter(const Vec3& at, double size) {
   const Vec3 thick(0, 0, .1 * size);
   return test::joined(box(at + Vec3(-.5, .7, 0) * size, at + Vec3(.5, 1, 0) * size + thick),
@@ -66,7 +66,7 @@ Relief relief_of(const LiveModel& live, double total = height) {
   return value_of(live.model().make_at_height(total, layered_shape(), 1));
 }
 
-// Returns the largest height at the points of the surface for which `is_wanted` returns true.
+// Returns the largest height of the relief at the points for which `is_wanted` returns true.
 template <typename F>
 double highest(const Relief& relief, F is_wanted) {
   double most = 0;
@@ -123,7 +123,7 @@ TEST(OwnHeights, OtherModelsKeepTheirHeights) {
     }
 }
 
-// The surface of the head behind the letter is not visible, but around the letter it continues evenly.
+// The letter hides the surface of the head behind it, but around the letter this surface continues evenly.
 TEST(OwnHeights, ALetterBeforeAHeadStandsThatHighOverIt) {
   const double share = .25;
   const LiveModel live = prepared(letter_before_head(share));

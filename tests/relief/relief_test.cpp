@@ -26,13 +26,13 @@ TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
       3000, 1, [](double x, double) { return .5 * x; }, [](double, double) { return Vec2(.5, 0); });
   const ReliefModel model = prepared(tilted);
   EXPECT_NEAR(model.make({{0, 0}, 0}).height, 0, 1e-12);
-  // Even if all slopes are kept, the relief stays low: a slope between two ends at height 0 is impossible,
-  // and the least squares spread the error.
+  // Even if all slopes are kept, the relief stays low. Both ends of the slope are at height 0, which is
+  // impossible for a slope, so the least squares spread the error.
   EXPECT_LT(model.make({keep_all, 0}).height, .2);
 }
 
-// The boundary weight only lowers the steep rim, which is two rho wide. So the difference between heights and
-// depths is a constant.
+// All slopes are kept, except that the boundary weight lowers the steep rim, which is two rho wide. So the
+// difference between heights and depths must be a constant.
 TEST(Relief, OfAHemisphereKeptInFullIsTheHemisphere) {
   const ReliefModel model = prepared(test::sphere(120000, 1));
   const Relief relief = model.make({keep_all, 0, 100});
@@ -61,8 +61,7 @@ TEST(Relief, RisesWithU) {
 
 using StyleShareBeta = std::tuple<Style, double, double>;
 
-// Returns the name of a case: its style, its height in millionths of the diagonal, and its beta in
-// hundredths.
+// Returns a name for a case. It states the style, the height in millionths of the diagonal, and beta in hundredths.
 std::string name_of(const testing::TestParamInfo<StyleShareBeta>& test) {
   const auto [style, share, beta] = test.param;
   return cat(style == Style::paper_weights ? "Paper" : "Layered", "_Share", std::lround(share * 1e6),
@@ -101,8 +100,8 @@ TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   expect_error(model.make_at_height(1.01 * most, {{}, .04}, 10), ErrorKind::geometry, "at most");
 }
 
-// At high saturation (beta), most heights would need a u larger than the largest double. They must be
-// reachable, too.
+// At high saturation (beta), most heights would need a u above the largest double. These heights must
+// be reachable, too.
 TEST(Relief, HasEveryHeightUpToTheLargest) {
   const ReliefModel model = prepared(bumps_behind_a_ring());
   for (const double beta : {0.0, 10.0, 100.0}) {
@@ -139,7 +138,7 @@ TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
   EXPECT_LT(test::root_mean_square(exact.heights, close.heights), .02 * exact.height);
 }
 
-// Only slopes matter, so the relief does not depend on the depth of a jump. tests/relief/depth_jumps_test.cpp
+// Only slopes matter, so the relief must not depend on the depth of a jump. tests/relief/depth_jumps_test.cpp
 // tests bounds of the steps that remain.
 TEST(Relief, OfATiltedFlapDoesNotDependOnItsDistance) {
   const auto relief_at = [](double distance) {
@@ -159,7 +158,7 @@ TEST(Relief, HasAModelForAllMethodsButThePapers) {
     EXPECT_EQ(model.serves(info.method), info.method != Method::paper) << info.name;
 }
 
-// A search for a height requires that heights grow with u.
+// The search for a height relies on heights that grow with u.
 TEST(Relief, OfTheLayeredStyleGrowsWithU) {
   const ReliefModel model = prepared(bumps_behind_a_ring());
   EXPECT_DOUBLE_EQ(usual_height_share(0), .4);
@@ -195,8 +194,7 @@ TEST(Relief, DoesNotChangeWithTheOrderOfThePoints) {
   EXPECT_EQ(model.make(shape).heights, reversed.make(shape).heights);
 }
 
-// All coordinates are multiples of 2^-20, so the shift is exact, and rounding cannot change which points are
-// visible.
+// All coordinates are multiples of 2^-20. So the shift is exact, and rounding cannot change which points are visible.
 TEST(Relief, DoesNotChangeWithTheOrigin) {
   Cloud cloud = bumps_behind_a_ring();
   for (Vec3& p : cloud.points) p = (p * 0x1p20).array().round() * 0x1p-20;

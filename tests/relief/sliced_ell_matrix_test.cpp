@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Random points. Each has 0 to 9 links to random points, a slope and a height.
+// Random points. Each point has 0 to 9 links to random points, and a slope and a height.
 struct Linked {
   Groups<MatrixEntry> links;
   std::vector<Vec2f> slopes;

@@ -19,7 +19,7 @@ TEST(SoftClip, KeepsTheMiddleAndRoundsTheEnds) {
     EXPECT_GE(clip(z), last);
     last = clip(z);
   }
-  // Beyond a limit, the slope of the clip decreases from 1 to the smallest slope. Its mean there is `kept`.
+  // Beyond a limit, the slope of the clip decreases from 1 to the smallest slope. The mean of these slopes is `kept`.
   EXPECT_NEAR(clip(.7), .7 - (1 - kept) * share, 1e-4);
   EXPECT_NEAR(clip(-.3), -.3 + (1 - kept) * share, 1e-4);
   EXPECT_NEAR(clip.span(), 1 - 2 * (1 - kept) * share, 1e-4);

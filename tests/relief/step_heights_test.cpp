@@ -36,8 +36,8 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
-// Returns the largest error of the heights. Ignores points within 2.5 sampling distances of the terraces'
-// edges, because the points do not determine the position of these edges more exactly.
+// Returns the largest error of the heights. Points within 2.5 sampling distances of the terraces' edges
+// do not count, because the points determine the position of these edges no more exactly than that.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -49,8 +49,8 @@ double largest_error(const ReliefModel& model, std::span<const double> heights, 
   return worst;
 }
 
-// The least squares equations contain the differences between the terraces' depths, which heights can satisfy
-// exactly.
+// The equations of the least squares contain the differences of the terraces' depths. Heights can satisfy
+// these equations exactly.
 TEST(StepHeights, OfTerracesAreTheirDepths) {
   const ReliefModel model = test::prepared(terraces(20000));
   const StepHeights& steps = model.steps();
@@ -63,7 +63,7 @@ TEST(StepHeights, ThereAreNoneWithoutAJump) {
   EXPECT_TRUE(test::prepared(test::sphere(20000, 1)).steps().empty());
 }
 
-// A step grows along its edge from 0 to 6 rho. Its wall must rise everywhere, even where the depths differ
+// A step grows from 0 to 6 rho along its edge. Its wall must rise everywhere, even where the depths differ
 // too little for a depth jump.
 TEST(Planes, StepWhereverTheDepthDoes) {
   constexpr double growth = .0425, scale = .05 * 2;
@@ -89,8 +89,9 @@ TEST(Planes, StepWhereverTheDepthDoes) {
   EXPECT_LT(low, .02 * static_cast<double>(count));
 }
 
-// A chin: within 3 rho of its edge the front falls by a quarter of an ellipse from 0.2 to 0.05 above the back.
-// The step must follow the depth between both parts, and not the 0.05 between the rows of points at the wall.
+// The surface is like a chin: within 3 rho of its edge, the front falls from 0.2 to 0.05 above the back, along a
+// quarter of an ellipse. The step must follow the depth between both parts, not the 0.05 between the rows of points at
+// the wall.
 TEST(Planes, StepByTheDepthOfAPartThatTurnsAway) {
   constexpr double top = .2, edge = .05, width = .042, scale = .05 * 2;
   const auto chin = [=](double x) {
@@ -145,8 +146,8 @@ TEST(Steps, TakeNothingWhereSlopesReachTheHeight) {
   EXPECT_NEAR(relief.heights[0], model.make(relief.shape).heights[0], 1e-6);
 }
 
-// If steps get the fraction S of the height h, the heights are those of the slopes plus the step heights
-// times S h / span.
+// If steps get the fraction S of the height h, the heights must be those that slopes give, plus the step
+// heights times S h / span.
 TEST(Steps, TakeTheShareAskedFor) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   const double height = .1, share = .4;
@@ -164,7 +165,7 @@ TEST(Steps, TakeTheShareAskedFor) {
 TEST(Steps, TakeTheShareOfAFreeHeightToo) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   const Relief slopes = model.make(plain()), relief = model.make(plain(.4));
-  // Slopes and steps are both highest at the centre.
+  // Slopes and steps are both highest at the centre, so their heights add up.
   EXPECT_NEAR(relief.height, slopes.height / .6, .02 * relief.height);
 }
 
@@ -193,7 +194,8 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
 }
 
-// The height correction also applies if steps get a part of the height. The terraces must keep their order.
+// The height correction also applies if steps get a part of the height. The terraces must then be in the
+// order of their depths.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
   const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();

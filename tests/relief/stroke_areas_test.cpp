@@ -22,7 +22,7 @@ Stroke lasso_of(std::vector<Vec3> corners, const Vec3& direction, double radius 
           .direction = direction};
 }
 
-// Returns corners around an ellipse in the plane z.
+// Returns the corners of a polygon on an ellipse in the plane at height z.
 std::vector<Vec3> ellipse(double a, double b, double z = 0) {
   std::vector<Vec3> corners;
   for (int i = 0; i < 60; ++i) {
@@ -82,7 +82,7 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
 }
 
 TEST(Lasso, LeavesOutWhatIsFarBehind) {
-  // The right half of the square lies 0.8 behind the left half. The lasso is 0.4 wide and at the height of
+  // The right half of the square lies 0.8 behind the left half. The lasso is 0.4 wide and has the depth of
   // the left half.
   const Surface surface = surface_of(test::height_field(
       40000, 1, [](double x, double) { return x < 0 ? .8 : 0.; }, [](double, double) { return Vec2(0, 0); }));
@@ -92,7 +92,7 @@ TEST(Lasso, LeavesOutWhatIsFarBehind) {
   for (const Index i : area.points) EXPECT_GT(test::place_of(surface, i).z(), .5);
 }
 
-// Two planes meet in a ridge along x = 0.
+// Returns two planes that meet in a ridge along x = 0.
 Surface roof(double slope) {
   return surface_of(test::height_field(
       40000, 1, [=](double x, double) { return -slope * std::abs(x); },

@@ -58,7 +58,7 @@ TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
   std::vector<float> weights(surface.points.size(), 0);
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
-  const auto nearest = [&](const Vec3& p) {  // distance from points on the line less than 1/500 apart
+  const auto nearest = [&](const Vec3& p) {  // distance from the line, which is sampled every 1/500
     double least = 9;
     for (std::size_t i = 1; i < stroke.points.size(); ++i)
       for (int t = 0; t <= 300; ++t)
@@ -106,8 +106,8 @@ TEST(StrokeMask, IsEmptyWhereTheViewShowsNothingOfTheLine) {
 }
 
 TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
-  // One square is 0.25 in front of another. Points of both are within the radius of 0.5, but the stroke must
-  // stay on the nearer square.
+  // The right half of the square lies 0.25 behind the left half. Points of both halves are within the radius
+  // of 0.5, but the stroke must stay on the nearer half.
   Cloud cloud = test::height_field(
       40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; }, [](double, double) { return Vec2(0, 0); });
   const Surface surface = surface_of(cloud);
@@ -136,7 +136,7 @@ TEST(StrokeFields, KeepEveryHeightOutside) {
   for (const Vec3& p : surface.points) z.push_back(.1 * (p.z() + 1) + .01 * std::sin(30 * p.x()));
   const Vec3 at(.2, .1, std::sqrt(1 - .05));
   for (const auto& [word, brush] : brushes) {
-    if (brush == Brush::in_front) continue;  // needs a depth jump, see below
+    if (brush == Brush::in_front) continue;  // this brush needs a depth jump; another test covers it
     std::vector<double> uncorrected(z.size(), .05), changed = z;
     StrokeFields<double> fields(surface);
     fields.take({dab(brush, at)});
@@ -166,7 +166,7 @@ TEST(StrokeFields, LevelToTheMean) {
   }
 }
 
-// Two blurs with half of the variance each multiply a wave of wave number k by 1 / (1 + sigma^2 k^2 / 4)^2.
+// Two blurs with half of the variance each multiply a wave with wave number k by 1 / (1 + sigma^2 k^2 / 4)^2.
 TEST(StrokeFields, BlurWavesAsTheirTransferFunctionSays) {
   const Surface surface = surface_of(test::sheet(80000, 1, 0));
   for (const auto& [brush, sigma, sign] :
@@ -241,7 +241,8 @@ TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
     }
 }
 
-// A stroke that grows step by step, beside strokes that stay, must have the same effect as if all were new.
+// A stroke grows step by step, beside strokes that do not change. The effect must always be the same as if
+// all strokes were new.
 TEST(StrokeFields, KeepWhatDidNotChangeOnlyForTheSameHeights) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   StrokeFields<double> fields(surface);
@@ -278,7 +279,7 @@ TEST(StrokeFields, AgreeInBothPrecisions) {
   for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(quick[i], exact[i], 1e-6);
 }
 
-// Returns the layered shape with these strokes.
+// Returns the layered shape with the given strokes.
 Shape painted(const Strokes& strokes) {
   Shape shape = layered_shape();
   shape.strokes.list = std::make_shared<const Strokes>(strokes);
@@ -330,7 +331,7 @@ TEST(StrokesOfReliefs, AreThoseOfFrames) {
   EXPECT_NEAR(frame.height, relief.height, 1e-4 * relief.height);
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
     EXPECT_NEAR(frame.heights[i], relief.heights[i], 2e-3 * relief.height);
-  // Without strokes, the frame must be that of a model that never had any.
+  // After the strokes are removed, the frame must be that of a model that never had strokes.
   frames.make(options_of(layered_shape()), frame);
   Frame plain;
   FrameMaker(model).make(options_of(layered_shape()), plain);

@@ -22,7 +22,7 @@ Stroke dab(const Vec3& at, double radius, double amount = 1) {
   return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
 }
 
-// Returns heights with waves, and the same heights under a smooth correction that is no plane.
+// Heights with waves, and the same heights after a smooth correction that is not linear.
 struct Corrected {
   std::vector<double> before, after;
 };
@@ -45,7 +45,7 @@ std::vector<double> protect(const Surface& surface, const Stroke& stroke, const 
   return z;
 }
 
-// Under a protected stroke, the heights differ from those before the correction only by a plane.
+// Under a protected stroke, the heights may differ from the heights before the correction only by a linear function.
 TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
@@ -64,7 +64,7 @@ TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   }
   const Eigen::VectorXd plane = terms.householderQr().solve(moved);
   EXPECT_LT((terms * plane - moved).cwiseAbs().maxCoeff(), 1e-9);
-  double before = 0, after = 0, weight = 0;  // the plane moves the stroke as the correction did on average
+  double before = 0, after = 0, weight = 0;  // on average, the stroke neither rises nor sinks
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k) {
     const auto w = static_cast<double>(mask.weights[k]);
@@ -101,7 +101,7 @@ std::vector<double> in_front(const Surface& surface, const Stroke& stroke, std::
 }
 
 TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
-  // The left half of the square is in front. Its heights in the relief are hardly above those of the right half.
+  // The left half of the square is in front of the right half, but in the relief it is hardly higher.
   const Surface surface = surface_of(test::height_field(
       40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; },
       [](double, double) { return Vec2(0, 0); }));
@@ -123,14 +123,14 @@ TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
           ++pairs;
         }
   ASSERT_GT(pairs, 50U);
-  EXPECT_NEAR(least, .2, 1e-9);  // as far in front as asked, and no further
+  EXPECT_NEAR(least, .2, 1e-9);  // as far in front as requested, and no farther
   for (Index i = 0; i < z.size(); ++i) {
     EXPECT_TRUE(weights[i] > 0 || changed[i] == z[i]);
     EXPECT_GE(changed[i], z[i]);
   }
   for (Index i = 0; i < z.size(); ++i)
     if (surface.points[i].z() > 0) z[i] += .5;
-  EXPECT_EQ(in_front(surface, stroke, z), z);  // parts that are in front already stay
+  EXPECT_EQ(in_front(surface, stroke, z), z);  // parts that are already in front stay
 }
 
 Shape painted(const Stroke& stroke) {
@@ -139,7 +139,7 @@ Shape painted(const Stroke& stroke) {
   return shape;
 }
 
-// A stroke that takes back a part of the correction changes nothing outside of the stroke.
+// A stroke that takes back a part of the correction must not change anything outside of the stroke.
 TEST(StrokeMoves, ProtectNothingElse) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
   Stroke stroke = dab({-.2, .2, -1.117}, .3);

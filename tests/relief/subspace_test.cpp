@@ -43,8 +43,8 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// Returns the largest root mean square error of several reliefs, as a fraction of their heights. Their
-// heights range from large to very small, and their compression is even or uneven.
+// Returns the largest root mean square error of several reliefs, as a fraction of the height of each.
+// Their heights range from large to very small, and their compression is even or uneven.
 double worst_error(const Surface& surface, const SubspaceModel& subspace,
                    std::initializer_list<double> betas = {0, .01, 1}) {
   const ReliefModel exact = ReliefModel::prepare(surface).value();
@@ -95,7 +95,7 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
-// The first error is 1.02 %, because of the rows of points beside the outlines. With scattered points only,
+// The first error is 1.02 %, because rows of points stand beside the outlines. With scattered points alone,
 // it would be below 1 %.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(bumps_behind_a_ring());
@@ -109,7 +109,7 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
 }
 
 // If every point is a control point and slopes are not averaged, only the spline of the offset is approximate
-// (see SubspaceModel).
+// (see SubspaceModel). So the relief must be nearly exact.
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
   SubspaceOptions options;
@@ -184,7 +184,7 @@ std::pair<ControlPoints, ControlMesh> control_mesh(const Surface& surface, std::
   return {control, mesh_control_points(surface, control)};
 }
 
-// The triangles inside must not cover the hole of the torus, but must cover everything else.
+// The inside triangles must not cover the hole of the torus, but must cover everything else.
 TEST(ControlMesh, LeavesHolesOut) {
   const Surface surface = surface_of(test::torus(60000, 1.5, .5));
   const auto [control, mesh] = control_mesh(surface, 1000);
@@ -203,7 +203,7 @@ TEST(ControlMesh, HoldsItsPointsOnTheSurfacesBoundary) {
   for (std::size_t c = 0; c < control.boundary_points; ++c) ASSERT_TRUE(mesh.boundary.is_boundary[c]);
 }
 
-// The samples are evenly distributed over the area, although three of four points are in the left half.
+// Three of four points are in the left half. Still, the samples must be evenly distributed over the area.
 TEST(RegionSamples, StandForEqualAreas) {
   test::Random random(5);
   Cloud crowded;
@@ -213,7 +213,7 @@ TEST(RegionSamples, StandForEqualAreas) {
     test::add(crowded, {x, random.uniform(-1, 1), 0}, {0, 0, 1});
   }
   const Surface surface = surface_of(crowded);
-  // There is only one control point, so its region contains all points.
+  // There is only one control point, so its region consists of all points.
   const ControlPoints control{{0}, 0, 10};
   const std::vector<Index> samples = sample_regions(surface, control, 1000);
   ASSERT_EQ(samples.size(), 1000U);

@@ -60,8 +60,8 @@ TEST(ToneCurve, WrongTextsAreNamed) {
   expect_error(parse_tone_curve(many), "1 to 16 points");
 }
 
-// A tone curve through the values of equation (6) at u = 1 gives equation (6) at every u, so the paper's
-// weight is one of the possible curves.
+// A tone curve through the values of equation (6) at u = 1 must give equation (6) at every u. So the
+// paper's weight is one of the possible curves.
 TEST(ToneCurve, HoldsThePapersFormula) {
   const double delta = .25, beta = .5, share = curvature_weight(.36, delta, {1, beta});
   const auto through = std::make_shared<const ToneCurve>(*ToneCurve::through({{.6, share}}));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Returns equation (6) as printed in the paper.
+// Computes equation (6) as printed in the paper.
 double printed(double k, double delta, double alpha, double beta) {
   return 1 - std::exp(-std::pow(std::abs(k) / (alpha * delta), beta));
 }
@@ -60,7 +60,7 @@ TEST(Compression, LeavesAlphaOpenAtBetaZero) {
   for (const double u : {0.0, .5, 1.0, 2.0, infinity}) EXPECT_TRUE(std::isnan((Compression{u, 0}.alpha())));
 }
 
-// For every u, the factor of the saturation is equation (6) at u = 1, divided by its value at |k| = delta.
+// For every u, the factor of the saturation must be equation (6) at u = 1, divided by its value at |k| = delta.
 TEST(Saturation, IsEquationSixWithoutItsHeight) {
   for (const double u : {.2, 1.0, 6.0})
     for (const double beta : {0.0, .5, 2.0})

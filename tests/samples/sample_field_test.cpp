@@ -31,8 +31,8 @@ Solid torus() {
   return {value, {centre - Vec3::Constant(1.15), centre + Vec3::Constant(1.15)}};
 }
 
-// Returns Pearson's statistic in units of its standard deviation. It is about -3 to 3 if the counts follow
-// `expected`.
+// Returns Pearson's chi-squared statistic, minus its mean and divided by its standard deviation. It is
+// between about -3 and 3 if the counts follow `expected`.
 double misfit(const std::vector<double>& counts, const std::vector<double>& expected) {
   double chi_sq = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
@@ -66,7 +66,7 @@ TEST(Scatter, IsUniformOverTheTorus) {
     ++round_tube[slot(tube / (2 * pi) + 0.5, slots)];
     ++round_axis[slot(std::atan2(q.y(), q.x()) / (2 * pi) + 0.5, slots)];
   }
-  for (int i = 0; i < slots; ++i) {  // `share` is the fraction of the area between two angles of the tube
+  for (int i = 0; i < slots; ++i) {  // `share`: fraction of the area between two angles of the tube
     const double from = 2 * pi * i / slots - pi, to = from + 2 * pi / slots;
     const double share = 1.0 / slots + small / big * (std::sin(to) - std::sin(from)) / (2 * pi);
     tube_area[static_cast<std::size_t>(i)] = 200000 * share;
@@ -89,7 +89,8 @@ TEST(Scatter, HasTheNearestNeighboursOfAPoissonProcess) {
   EXPECT_NEAR(sum / n, spacing / 2, 0.03 * spacing / 2);
 }
 
-// On a sphere, the noise is the deviation of the radius, and the tilt is the angle to the radius.
+// On a sphere, noise along the normals changes the radius, and tilt is the angle between the normal
+// and the radial direction.
 TEST(Scatter, AddsTheNoiseAskedForAlongTheNormal) {
   const std::size_t n = 100000;
   for (const double noise : {0.15, 1.0}) {

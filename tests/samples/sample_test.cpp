@@ -26,7 +26,7 @@ field::Solid solid_of(std::string_view name) {
   return field::green_man();
 }
 
-// Returns the sample without noise. It is made only once.
+// Returns the sample without noise. Each sample is made only once.
 const Cloud& exact(std::string_view name) {
   static std::map<std::string_view, Cloud> made;
   const auto [it, is_new] = made.try_emplace(name);
@@ -61,10 +61,10 @@ TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Vec3& p = cloud.points[i];
     ASSERT_LT(std::abs(solid.value(p)), 1e-6);
-    Vec3 gradient;  // from central differences, unlike the cloud's normals
+    Vec3 gradient;  // by central differences, independently of the normals
     for (int axis = 0; axis < 3; ++axis)
       gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - solid.value(p - step * Vec3::Unit(axis));
-    if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // 1 degree
+    if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // over 1 degree
   }
   EXPECT_LT(off_normals, 300) << "only a point on a crease may have another normal";
 }
@@ -88,7 +88,7 @@ TEST_P(Sample, HasAFieldThatIsAtMostTheDistance) {
   EXPECT_LT(too_high, 500);
 }
 
-// A grid of side x side cells over the bounding box, in the view plane.
+// A grid of side x side cells over the bounding box, as seen along z.
 struct Plane {
   Box box;
   int side = 0;
@@ -99,8 +99,8 @@ struct Plane {
   }
 };
 
-// Returns how often a ray along Z enters or leaves the solid. The steps are so small that the ray misses few
-// crossings.
+// Returns how often a ray along z enters or leaves the solid. The steps along the ray are so small that it
+// misses few crossings.
 int crossings(const field::Solid& solid, Vec3 p) {
   const double step = 0.002;
   int count = 0;
@@ -115,7 +115,7 @@ int crossings(const field::Solid& solid, Vec3 p) {
   return count;
 }
 
-// Casts rays through the solid. Returns for each cell its fraction of all crossings.
+// Casts rays through the solid. Returns, for each cell, the number of crossings in it as a fraction of all crossings.
 std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane) {
   const std::size_t side = 120;
   std::vector<int> counts(side * side);
@@ -132,8 +132,8 @@ std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane
   return shares;
 }
 
-// Computes the same fractions from a cloud. Each point represents the same area of surface; in the view plane
-// this area is smaller by the factor |nz|.
+// Computes the same fractions from a cloud. Each point represents the same area of the surface. In the view
+// plane this area is smaller by the factor |nz|.
 std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
   std::vector<double> shares(plane.cells(), 0);
   for (std::size_t i = 0; i < cloud.size(); ++i)
@@ -155,7 +155,7 @@ TEST_P(Sample, HasAsManyPointsAsRaysMeetSurface) {
   }
 }
 
-// Returns for each pixel the depths of the points that face the viewer.
+// Returns, for each pixel, the depths of the points in it that face the viewer.
 std::map<std::pair<int, int>, std::vector<double>> facing_depths(const Cloud& cloud) {
   const double pixel = 0.04;
   std::map<std::pair<int, int>, std::vector<double>> depths;

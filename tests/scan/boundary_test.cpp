@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// A flat cloud whose points are all visible, with its triangulation and its boundary.
+// A flat cloud whose points are all visible, with the triangulation and the boundary of the points.
 struct FlatCase {
   std::vector<Vec2> points;
   double rho;
@@ -29,7 +29,7 @@ struct FlatCase {
 
 TEST(Boundary, OfASquareIsItsRimOnePointThick) {
   const FlatCase square(test::sheet(40000, 1, 0));
-  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points do not reach the edge
+  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points do not reach the square's edge
   const double rho = square.rho;
   std::size_t count = 0;
   for (std::size_t i = 0; i < square.points.size(); ++i) {
@@ -37,7 +37,7 @@ TEST(Boundary, OfASquareIsItsRimOnePointThick) {
     ++count;
     EXPECT_GT(square.points[i].cwiseAbs().maxCoeff(), 1 - 4 * rho);
   }
-  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // at most 1.5 points per rho; the edge is 8 long
+  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // the edge is 8 long; at most 1.5 points per rho
 }
 
 TEST(Boundary, OfARingHasTheInnerHole) {

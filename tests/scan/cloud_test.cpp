@@ -20,7 +20,7 @@ TEST(Outliers, AreThoseAtAnotherPlaceAltogether) {
   for (Vec3& p : cloud.points) p += Vec3(4e5, 5e6, 100);
   EXPECT_TRUE(outliers(cloud).empty());
   test::add(cloud, Vec3::Zero(), Vec3::UnitZ());
-  test::add(cloud, Vec3(4e5, 5e6, 110), Vec3::UnitZ());  // far away, but may belong to another object
+  test::add(cloud, Vec3(4e5, 5e6, 110), Vec3::UnitZ());  // far away, but it may belong to another object
   EXPECT_EQ(outliers(cloud), std::vector<Index>{1000});
 }
 

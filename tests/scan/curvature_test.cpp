@@ -16,8 +16,8 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-// Returns the mean and the standard deviation of the errors of mean_curvature(), at the points for which
-// `is_counted` returns true.
+// Returns the mean and the standard deviation of the errors of mean_curvature(). Only points for which
+// `is_counted` returns true count.
 template <typename Truth, typename IsCounted>
 Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const CurvatureOptions& options) {
   std::vector<Index> queries;
@@ -160,8 +160,7 @@ TEST(Curvature, EndsEarlyWhenCancelled) {
             (std::vector<double>{0, 0, 0}));
 }
 
-// A triangular lattice in the view plane with rho = 1, so the area per point is 1. All normals point to the
-// viewer.
+// A triangular lattice in the view plane. Its rho is 1: the area per point is 1. All normals point to the viewer.
 struct Lattice {
   static constexpr Index side = 31, middle = side * side / 2;
   static constexpr double spacing_sq = 2 * std::numbers::inv_sqrt3;
@@ -190,8 +189,8 @@ struct Lattice {
   }
 };
 
-// One pass gives each of the six neighbours at distance a the weight w = exp(-a^2 / rho^2), relative to the
-// weight of the point itself. So the mean square distance is 6 w a^2 / (1 + 6 w); three passes triple it.
+// One pass gives each of the six neighbours, at distance a, the weight w = exp(-a^2 / rho^2); the point itself has
+// weight 1. So the mean square distance after one pass is 6 w a^2 / (1 + 6 w). Three passes triple it.
 TEST(AverageInPlane, SpreadsAValueByTheWidthOfThreePasses) {
   const Lattice lattice;
   const std::vector<double> spread = lattice.spread_from_the_middle();
@@ -210,7 +209,7 @@ TEST(AverageInPlane, KeepsWhatIsTheSameEverywhere) {
     EXPECT_NEAR(k, -.7, 1e-12);
 }
 
-// At a depth jump, values from two surfaces alternate at random.
+// At a depth jump, the values of two surfaces alternate at random, because their points are mixed in the view.
 TEST(AverageInPlane, LevelsValuesThatAlternate) {
   test::Random random(3);
   const Lattice lattice;
@@ -221,7 +220,7 @@ TEST(AverageInPlane, LevelsValuesThatAlternate) {
   EXPECT_LT(std::sqrt(square), .3);
 }
 
-// The weight of a point is its area in the view plane, which is 0 for a point that is seen edge on.
+// The weight of a point is the point's area in the view plane. This area is 0 if the point is seen edge on.
 TEST(AverageInPlane, LeavesOutWhatIsSeenEdgeOn) {
   Lattice lattice;
   lattice.normals[Lattice::middle] = Vec3f::UnitX();

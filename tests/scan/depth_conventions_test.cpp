@@ -1,5 +1,5 @@
-// Tests depth images in the conventions of different programs. These differ in how they store depths, in the
-// value where nothing was measured, and in the background behind the figure.
+// Tests depth images in the conventions of different programs. The conventions differ in how depths are
+// stored, in the value that marks missing depths, and in the background behind the figure.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,8 @@ constexpr int side = 200;
 constexpr double nothing = std::numeric_limits<double>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-// Returns the depth in metres of a bust of ellipsoids, seen along parallel rays; `nothing` outside the bust.
+// Returns the depth in metres at a pixel of a bust, which is made of ellipsoids and seen along parallel
+// rays. Returns `nothing` outside the bust.
 double bust(int column, int row) {
   struct Ellipsoid {
     double x, y, z, rx, ry, rz;
@@ -34,7 +35,7 @@ double bust(int column, int row) {
   return nearest;
 }
 
-// A way to store depths that are in metres.
+// A way to store depths, which are given in metres.
 struct Convention {
   std::string_view name;
   DepthValues kind;
@@ -60,8 +61,8 @@ std::vector<Convention> conventions() {
           {"8-bit disparity", inverse, 1, parts(500, true), {0, 255}}};
 }
 
-// Returns an image of the figure. Behind it is a slightly tilted wall, at the distance `wall` behind 3 m; no
-// wall if that is `nothing`.
+// Returns an image of the figure. A slightly tilted wall is behind it, at a distance of 3 m + `wall` from
+// the viewer. There is no wall if `wall` is `nothing`.
 DepthImage picture(const Convention& how, double wall, float missing,
                    const std::function<double(int, int)>& figure = bust) {
   DepthImage image{{side, side, 1, {}}, how.step, "test"};
@@ -82,8 +83,8 @@ std::vector<std::uint8_t> pixels_of(const Cloud& cloud) {
   return is_used;
 }
 
-// Returns the fraction of the figure's pixels that have points. Returns a negative number if there are points
-// more than two pixels outside the figure.
+// Returns the fraction of the figure's pixels that have points. If any point is more than two pixels outside
+// the figure, returns a negative number.
 double share_used(const DepthCloud& made) {
   const std::vector<std::uint8_t> is_used = pixels_of(made.cloud);
   const auto is_figure = [](int c, int r) {
@@ -161,7 +162,7 @@ TEST(DepthConventions, EveryPixelHasItsUse) {
     }
 }
 
-// The depths are in steps of 10 mm. A tooth one pixel wide stands on the upper side of the figure.
+// The depths are stored in steps of 10 mm. A tooth, a strip one pixel wide, stands on the upper side of the figure.
 TEST(DepthConventions, TeethHaveTheUseOfBlur) {
   DepthImage image{filled_image(120, 90, 0.F), 1, "test"};
   for (int r = 20; r < 90; ++r)
@@ -186,7 +187,8 @@ TEST(DepthConventions, UnknownHeightsOfTerrainAreMissing) {
   }
 }
 
-// If the largest value is separated from the others by less than their range, it is a depth and not a marker.
+// If the gap between the largest value and the others is smaller than the range of the others, the largest
+// value is a depth, not a marker.
 TEST(DepthConventions, ALargestValueThatOthersLeadUpToIsADepth) {
   DepthImage image{{side, side, 1, {}}, 1, "test"};
   for (int i = 0; i < side * side; ++i) image.values.pixels.push_back(static_cast<float>(56 + i % side));
@@ -231,7 +233,7 @@ TEST(DepthConventions, BackgroundIsKeptIfAskedAndInHeightsUnlessAsked) {
   EXPECT_GE(share_used(value_of(depth_cloud(picture(heights, 1, 0), options))), .98);
 }
 
-// The column extends to the lower edge of the picture, so no jump surrounds it on that side.
+// The column extends to the lower edge of the picture, so there is no jump around it on this side.
 TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   const Convention metres = conventions().front();
   const auto column = [](int c, int r) { return c > 80 && c < 110 && r > 40 ? 2 + .001 * c : 4 - .0001 * r; };
@@ -241,8 +243,8 @@ TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   EXPECT_EQ(made.cloud.size(), 29U * 159U);
 }
 
-// Returns a disc with value 200 in front of a wall with value 60. The outline is blurred over `blur` pixels
-// on each side.
+// Returns a disc of value 200 in front of a wall of value 60. The disc's outline is blurred over `blur`
+// pixels inwards and outwards.
 DepthImage blurred_disc(double blur) {
   DepthImage image{{side, side, 1, {}}, 1, "test"};
   for (int i = 0; i < side * side; ++i) {
@@ -253,7 +255,7 @@ DepthImage blurred_disc(double blur) {
   return image;
 }
 
-// Returns the number of points whose height is neither that of the disc nor that of the wall.
+// Returns the number of points that are between the height of the disc and the height of the wall.
 std::size_t points_between(const Cloud& cloud) {
   const auto [low, high] = std::ranges::minmax(cloud.points, {}, [](const Vec3& p) { return p.z(); });
   return static_cast<std::size_t>(std::ranges::count_if(cloud.points, [&](const Vec3& p) {
@@ -296,7 +298,7 @@ TEST(DepthConventions, RoundSidesAreNoBlur) {
   }
 }
 
-// In a height map, the walls of letters are steep over one or two pixels.
+// In a height map, the walls of letters are steep over one or two pixels. They must not count as blur.
 TEST(DepthConventions, WallsOfLettersAreSurface) {
   DepthImage image{{side, side, 1, {}}, 0, "test"};
   for (int i = 0; i < side * side; ++i) {

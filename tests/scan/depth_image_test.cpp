@@ -17,7 +17,7 @@ namespace {
 
 constexpr int width = 240, height = 180;
 
-// Returns a depth image with the values value(column, row).
+// Returns a depth image whose values are value(column, row).
 template <typename F>
 DepthImage image_of(F&& value, double step) {
   DepthImage image{{width, height, 1, {}}, step, "test"};
@@ -26,7 +26,7 @@ DepthImage image_of(F&& value, double step) {
   return image;
 }
 
-// Returns the height, in [0, 1], of a smooth surface with hills of different steepness.
+// Returns the height, in [0, 1], of a smooth surface. Its hills differ in steepness.
 double hills(double c, double r) {
   const auto hill = [&](double x, double y, double radius) {
     return std::exp(-((c - x) * (c - x) + (r - y) * (r - y)) / (2 * radius * radius));
@@ -40,7 +40,7 @@ double highest_hill() {
   return high;
 }
 
-// Returns the normal of the surface hills() if a height of 1 is `scale` pixels.
+// Returns the normal of the surface hills(). A height of 1 is `scale` pixels high.
 Vec3f hills_normal(double c, double r, double scale) {
   const double e = 1e-3, dx = (hills(c + e, r) - hills(c - e, r)) / (2 * e),
                dy = (hills(c, r + e) - hills(c, r - e)) / (2 * e);
@@ -57,11 +57,11 @@ std::size_t pixel_of(const Vec3& p) {
 }
 
 struct Errors {
-  double height = 0, angle_deg = 0;  // height: root mean square error; angle_deg: mean error
+  double height = 0, angle_deg = 0;  // root mean square error of heights; mean error of angles
 };
 
-// Returns the errors of the cloud's heights and normals, compared with hills(). A common offset of all
-// heights does not count.
+// Returns the errors of the cloud's heights and normals, compared with those of hills(). An offset
+// that all heights have in common does not count.
 Errors errors_of(const Cloud& cloud, double scale) {
   Errors sum;
   double shift = 0;
@@ -96,8 +96,8 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   const double scale = .5 * width / high, step = .5 * width / 255;  // in pixels
   const Errors smooth = errors_of(made.cloud, scale);
 
-  // This is the same cloud without smoothing, in which rounded heights form steps. The formula for normals is
-  // the same.
+  // `raw` is the same cloud without smoothing, so its rounded heights form steps. Its normals are computed by
+  // the same formula.
   Cloud raw = made.cloud;
   const auto value = [&](int c, int r) {
     c = std::clamp(c, 0, width - 1), r = std::clamp(r, 0, height - 1);
@@ -115,7 +115,7 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   RecordProperty("mean_normal_error_deg", std::to_string(smooth.angle_deg));
   RecordProperty("mean_normal_error_of_steps_deg", std::to_string(stepped.angle_deg));
   RecordProperty("height_error_in_steps", std::to_string(smooth.height / step));
-  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // standard deviation of rounding errors
+  EXPECT_NEAR(stepped.height / step, 1 / std::sqrt(12), .02);  // the standard deviation of rounding errors
   EXPECT_LT(smooth.height, .5 * stepped.height);
   EXPECT_LT(smooth.angle_deg, .2 * stepped.angle_deg);
   EXPECT_LT(smooth.angle_deg, 2);
@@ -163,7 +163,8 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
   for (std::size_t k = 0; k < made->cloud.size(); k += 31) {
     const auto i = static_cast<int>(pixel_of(made->cloud.points[k]));
     const Vec3 r = ray(i % width, i / width);
-    // z is -f log(depth) with the focal length f, so the slope of z per pixel is (n.x, n.y) / (n . ray).
+    // The z of the cloud is -f log(depth), where f is the focal length. So the slope of z per pixel is
+    // (n.x, n.y) / (n . ray).
     const Vec3f expected = Vec3(-n.x() / n.dot(r), n.y() / n.dot(r), 1).normalized().cast<float>();
     EXPECT_LT(angle_deg(made->cloud.normals[k], expected), .3) << k;
   }
@@ -216,8 +217,8 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
   EXPECT_EQ(depth_cloud(image_of(hills, 0), {}, &progress).error().kind, ErrorKind::cancelled);
 }
 
-// The normals of a hollow point inwards, like those of a model that is inside out. Since they face the
-// viewer, they must not be flipped.
+// The normals of a hollow point inwards, like those of a model that is inside out. Here they face the
+// viewer, so they must not be flipped.
 TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto hollow = depth_cloud(image_of([](int c, int r) { return 1 - hills(c, r); }, 0), as_heights());
   ASSERT_TRUE(hollow);
@@ -228,7 +229,8 @@ TEST(DepthCloud, OfAHollowBecomesARelief) {
   EXPECT_GT(made.report.visible_points, .95 * width * height);
 }
 
-// The points at each edge of a picture are on one line, exactly or up to rounding.
+// At each edge of a picture, the points are on one line, exactly or up to rounding. That must not
+// make the solid intersect itself.
 TEST(DepthCloud, MakesSolidsThatDoNotCutThemselves) {
   DepthImage image{{48, 36, 1, {}}, 0, "test"};
   for (int i = 0; i < 48 * 36; ++i)

@@ -1,4 +1,4 @@
-// Tests that only thin teeth of outlines are removed.
+// Tests that only thin teeth of outlines are removed: parts that are less than three pixels wide.
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

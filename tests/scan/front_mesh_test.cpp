@@ -29,7 +29,7 @@ TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
   const Mesh mesh = front_mesh(scene, measure_spacing(scene));
   EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), 4, .1);
   for (const Vec3& p : mesh.points) EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 2)), 1e-9);
-  // Triangles with corners on both sheets must be at the edge of the nearer sheet.
+  // Only triangles at the edge of the nearer sheet may have corners on both sheets.
   const double rho = measure_spacing(scene).rho;
   for (const Triangle& t : mesh.triangles) {
     const auto is_near = [&](Index i) { return mesh.points[i].z() > 1; };
@@ -41,8 +41,7 @@ TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
   }
 }
 
-// Returns a slope of 45 degrees with a gap around x = 0. The part to the right of the gap is lower by
-// `depth`.
+// Returns a slope of 45 degrees with a gap around x = 0. The part to the right of the gap is `depth` lower.
 Cloud broken_slope(double half_gap, double depth) {
   const Cloud slope = test::height_field(
       10000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });

@@ -14,14 +14,14 @@ using test::surface_of;
 constexpr double half = 1;  // half of the side length of the clouds
 const Vec2 across = Vec2(3, 4).normalized();
 
-// Returns a valley or a roof. Its edge is the line through the origin that is perpendicular to `across`.
+// Returns a valley or a roof. Its edge is a line through the origin, perpendicular to `across`.
 Cloud fold(std::size_t n, double slope) {
   return test::height_field(
       n, half, [=](double x, double y) { return slope * std::abs(across.dot(Vec2(x, y))); },
       [=](double x, double y) -> Vec2 { return (across.dot(Vec2(x, y)) > 0 ? slope : -slope) * across; });
 }
 
-// The points of walls far from the silhouette, where only the tested line has walls.
+// Statistics of the points at walls, far from the silhouette. There, only the tested line has walls.
 struct Walls {
   std::size_t count = 0;
   double farthest = 0;  // largest distance from the line through the origin, in rho
@@ -87,7 +87,7 @@ TEST(InnerLines, AreNotOnSmoothSurfaces) {
   }
 }
 
-// A jump may become lower and end inside the surface. Its wall must continue until the step is gone.
+// A jump becomes lower along its edge and ends inside the surface. Its wall must continue until the step is gone.
 TEST(InnerLines, ContinueAJumpToItsEnd) {
   const auto step = [](double y) { return std::max(0.0, .3 * (y + .5)); };
   const Cloud flap = test::height_field(
@@ -100,7 +100,7 @@ TEST(InnerLines, ContinueAJumpToItsEnd) {
     const Vec2 at = (surface.points[i] + surface.centre).head<2>();
     if (surface.boundary.wall_side[i] == WallSide::none || at.cwiseAbs().maxCoeff() > .9 * half) continue;
     lowest = std::min(lowest, at.y());
-    // Points behind the edge are hidden up to a distance of 2 rho, so the curve is slightly behind the edge.
+    // Points behind the edge are hidden up to a distance of 2 rho. So the curve lies slightly behind the edge.
     near += at.x() > -2 * surface.rho && at.x() < .6 * surface.rho, ++count;
   }
   EXPECT_GT(near, .9 * count);

@@ -11,7 +11,7 @@ namespace {
 constexpr double rho = .1, spacing = .75 * rho, length = 3;
 const Vec2 along = Vec2(3, 4).normalized(), left(-along.y(), along.x());
 
-// Returns a straight jump of this length that begins at a place.
+// Returns a straight jump of fixed length that begins at `begin`.
 OutlineCurve jump(const Vec2& begin, const Vec2& direction) {
   OutlineCurve line{{}, false, true};
   for (double at = 0; at < length; at += spacing) line.curve.points.push_back(begin + at * direction);
@@ -19,7 +19,7 @@ OutlineCurve jump(const Vec2& begin, const Vec2& direction) {
   return line;
 }
 
-// Returns a jump, and another one that begins behind its end after a gap, turned by an angle.
+// Returns two jumps. The second begins after a gap behind the end of the first, and is turned by an angle.
 std::vector<OutlineCurve> two_jumps(double gap, double turn = 0, bool is_turned_round = false) {
   const OutlineCurve first = jump(Vec2::Zero(), along);
   OutlineCurve second =
@@ -58,7 +58,7 @@ TEST(JoinedJumps, StayApartUnlessTheyContinueEachOther) {
   EXPECT_EQ(count_after_joining(silhouettes), 2) << "no jumps";
 }
 
-// Three pieces of a ring are joined to one line. The two ends of this line are not joined to each other.
+// Three pieces of a ring must be joined to one line. The two ends of this line must not be joined to each other.
 TEST(JoinedJumps, LeaveARingOpenAtOnePlace) {
   constexpr int pieces = 3;
   std::vector<OutlineCurve> outlines;

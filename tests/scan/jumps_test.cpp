@@ -9,8 +9,8 @@
 namespace relievo {
 namespace {
 
-// Returns a level square of side 0.8, at the distance `apart` in front of a square of side 2. The depth jumps
-// are where |x| or |y| is 0.4.
+// Returns a level square of side 0.8 in front of a level square of side 2, at the distance `apart`. The depth
+// jumps are where |x| or |y| is 0.4.
 Surface sheets(double apart = 3) {
   const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, apart, 9));
   return test::surface_of(cloud);

@@ -29,8 +29,7 @@ Cloud scattered_torus() {
   return cloud;
 }
 
-// A cloud that is measured once for all views must give the same surfaces, bit for bit, as clouds that are measured
-// for one view each.
+// A cloud may be measured once for all views, or for each view. The surfaces of both must be equal, bit for bit.
 TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
   const Cloud cloud = scattered_torus();
   for (const double denoise : {0., .3}) {
@@ -47,7 +46,7 @@ TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
   }
 }
 
-// Points of a sphere are moved along its normals, which are also their axes.
+// Points of a sphere are displaced along its normals by noise. The axes of the points are the normals.
 TEST(MeasuredCloud, FindsNormalsFromPointsAndAxes) {
   Cloud cloud = test::sphere(20'000, 1);
   test::Random random(5);
@@ -97,7 +96,8 @@ TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
   EXPECT_EQ(std::ranges::count(points, few - sphere->centre()), 4);
 }
 
-// The coordinates are as large as UTM coordinates: millions of metres. Single precision rounds them to 0.5 m.
+// The coordinates are as large as UTM coordinates, millions of metres. Single precision rounds such
+// coordinates to 0.5 m.
 TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
   const Vec3 origin(500'000, 5'400'000, 100);
   Cloud exact = test::sphere(20'000, 2), rounded;

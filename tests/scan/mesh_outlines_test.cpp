@@ -1,4 +1,4 @@
-// Compares the outlines of meshes with the closed forms of their shapes.
+// Compares the outlines of meshes with closed forms of the shapes.
 #include "scan/outlines/mesh_outlines.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The surface of points that were sampled on a mesh. The points are relative to `centre`.
+// The surface of points that were sampled on a mesh. The points are given relative to `centre`.
 struct MeshSurface {
   Surface surface;
   Vec3 centre;  // in view coordinates
@@ -30,7 +30,7 @@ struct MeshSurface {
   Vec2 place(Index i) const { return (surface.points[i] + centre).head<2>(); }
   double rho() const { return surface.rho; }
 
-  // Calls f(from, to) for each edge of a triangle inside the outline that belongs to no other such triangle.
+  // Calls f(from, to) for each edge that belongs to only one triangle inside the outline.
   template <typename F>
   void each_boundary_edge(F&& f) const {
     std::vector<std::array<Index, 2>> sides;
@@ -44,8 +44,8 @@ struct MeshSurface {
       if (!std::ranges::binary_search(sides, std::array<Index, 2>{b, a})) f(a, b);
   }
 
-  // Returns the largest |offset(position)| at the points of the boundary and the midpoints of its edges, in
-  // rho.
+  // Returns the largest |offset(position)|, in rho, at the points of the boundary and the midpoints of the
+  // boundary's edges.
   template <typename Offset>
   double farthest(Offset offset) const {
     double most = 0;
@@ -125,7 +125,7 @@ TEST_P(MeshOutlines, OfAGearKeepItsCorners) {
 }
 
 TEST_P(MeshOutlines, LeaveNotchesOpen) {
-  // The gap between two sheets is so narrow that it would be closed in a cloud.
+  // There is a narrow gap between two sheets. In a cloud of points, a gap of this width would be closed.
   const auto sheet = [](double left, double right) {
     return Mesh{{{left, -1, 0}, {right, -1, 0}, {right, 1, 0}, {left, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   };
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, MeshOutlines, testing::Values(20000, 100000));
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, MeshOutlines, testing::Values(1000000));
 
 TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
-  // A square hides the left half of a rectangle behind it.
+  // A square hides the left half of a rectangle that is behind it.
   const auto square = [](double left, double z) {
     return Mesh{{{left, -1, z}, {left + 2, -1, z}, {left + 2, 1, z}, {left, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
   };

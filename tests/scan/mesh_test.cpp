@@ -45,7 +45,7 @@ TEST(SampleMesh, NormalsAreThoseOfTheSmoothShape) {
     worst = std::max(worst, sine);
     ++inner;
   }
-  EXPECT_LT(sum / static_cast<double>(inner), .1);  // the triangles' own normals are off by 1.5 degrees
+  EXPECT_LT(sum / static_cast<double>(inner), .1);  // the triangles' own normals have errors of 1.5 degrees
   EXPECT_LT(worst, std::sin(1 * std::numbers::pi / 180));
 }
 
@@ -60,7 +60,7 @@ TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
 }
 
 TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
-  Mesh nearer = square(1, true);  // the nearer square faces away, but hides the other square
+  Mesh nearer = square(1, true);  // the nearer square faces away, but still hides the other one
   for (Vec3& p : nearer.points) p.head<2>() *= .5;
   const auto cloud = value_of(sample_mesh(test::joined(square(0), nearer), front, {10000}));
   std::size_t near = 0;
@@ -79,8 +79,8 @@ TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
 TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
   const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 400), front, {3000}));
   const double pixel = std::sqrt(std::numbers::pi / 3000);
-  // This is the largest distance of a sample from the centre in each of 90 directions. If samples were only
-  // on the grid, it would be too small by up to a pixel.
+  // `reach` is the largest distance of a sample from the centre, in each of 90 directions. It would be too
+  // small by up to a pixel if samples were only on the grid.
   std::vector<double> reach(90, 0);
   for (const Vec3& p : cloud.points) {
     const double angle = std::atan2(p.y(), p.x()) + std::numbers::pi;
@@ -131,7 +131,7 @@ TEST(Scatter, IsEvenByAreaOnAllSides) {
 }
 
 TEST(SmoothNormals, StopAtCreases) {
-  // Returns two squares with a common edge. The second is rotated by `degrees` out of the plane of the first.
+  // Returns two squares with a common edge. The second square is rotated by `degrees` out of the plane of the first.
   const auto bent = [](double degrees) {
     const double a = degrees * std::numbers::pi / 180;
     return Mesh{{{0, 0, 0},
@@ -154,7 +154,7 @@ TEST(SmoothNormals, StopAtCreases) {
 
 TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
   CloudFile file;
-  file.mesh = test::sphere_mesh(1, 24);  // its points alone are 0.26 apart, too far for a good relief
+  file.mesh = test::sphere_mesh(1, 24);  // its own points are 0.26 apart, too far for a good relief
   file.cloud.points = file.mesh.points;
   ReliefOptions options;
   options.height_mm = 5;

@@ -15,15 +15,14 @@
 namespace relievo {
 namespace {
 
-// A cloud with noise, and the true normals of its points.
+// A cloud with noise, and the points' normals before the noise.
 struct NoisyCloud {
   Cloud cloud;
   std::vector<Vec3f> truth;
 };
 
-// Moves the points along their normals by Gaussian noise; `noise` is its standard deviation in sampling
-// distances. The normals are then estimated from the moved points; only their signs are those of the true
-// normals.
+// Moves the points along their normals by Gaussian noise. `noise` is the standard deviation in sampling
+// distances. Then the normals are estimated from the moved points, but with the signs of the true normals.
 NoisyCloud with_noise(Cloud cloud, double noise) {
   test::Random random(11);
   const double rho = measure_spacing(cloud).rho;
@@ -47,7 +46,7 @@ double noise_of(const Cloud& cloud) {
   return measure_noise(cloud, measure_spacing(cloud));
 }
 
-// Removes noise at all points.
+// Removes noise at all points of the cloud.
 Cloud cleaned(Cloud cloud, double noise) {
   const Spacing spacing = measure_spacing(cloud);
   const KdTree<Vec3> tree(cloud.points);
@@ -72,7 +71,7 @@ TEST(MeasureNoise, IsZeroOnCleanShapes) {
 }
 
 TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
-  // measure_noise() measures in sampling distances of the noisy cloud. These are larger than those of the
+  // measure_noise() measures in sampling distances of the noisy cloud. They are larger than those of the
   // clean cloud, and increase with the noise.
   for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)})
     for (const double noise : {.15, .3, .5}) {
@@ -110,7 +109,7 @@ TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
 }
 
 TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
-  // A filter that fits constants would move the points inwards by about rho^2 / 2, which is 3e-4 here.
+  // If the filter fitted constants, it would move the points inwards by about rho^2 / 2, which is 3e-4 here.
   const std::vector<Vec3f> truth = test::sphere(20000, 1).normals;
   const Cloud cloud = cleaned(test::sphere(20000, 1), .5);
   for (const Vec3& p : cloud.points) ASSERT_NEAR(p.norm(), 1, 5e-5);

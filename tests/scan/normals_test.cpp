@@ -35,7 +35,7 @@ TEST(EstimateNormals, LeavesTwoPointsAlone) {
   EXPECT_FALSE(two.has_normals());
 }
 
-// Returns the mean angle in degrees between lines along two lists of directions.
+// Returns the mean angle in degrees between the lines along corresponding directions of two lists.
 double mean_angle(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -43,8 +43,8 @@ double mean_angle(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-// Moves the points of a cloud along its normals by noise of `offset` sampling distances. Replaces the normals
-// by axes with errors and random signs, as Gaussian splats have them.
+// Moves the points of a cloud along its normals by noise; `offset` is the standard deviation in sampling
+// distances. Replaces the normals by axes with errors and random signs, such as Gaussian splats have.
 Cloud with_noisy_axes(const Cloud& truth, double offset, double slant_deg) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -68,12 +68,12 @@ TEST(EstimateNormals, OfPointsWithAxesAreBetterThanOfEitherAlone) {
         estimate_normals(both), estimate_normals(points);
         const double found = mean_angle(both.normals, truth.normals);
         EXPECT_LT(found, .4 * mean_angle(both.axes, truth.normals)) << offset << ' ' << slant;
-        const double share = offset >= .6 ? .5 : 1.03;  // relative to the error of normals from points alone
+        const double share = offset >= .6 ? .5 : 1.03;  // compared with normals from the points alone
         EXPECT_LT(found, share * mean_angle(points.normals, truth.normals)) << offset << ' ' << slant;
       }
 }
 
-// Axes in random directions have almost no effect, and zero axes have none.
+// Axes in random directions must have almost no effect; zero axes must have none.
 TEST(EstimateNormals, OfPointsWithWrongAxesAreThoseOfThePoints) {
   const Cloud truth = test::torus(20000, 1, .35);
   Cloud random = with_noisy_axes(truth, .15, 89.9), unknown = random, points{random.points, {}};

@@ -10,10 +10,10 @@
 namespace relievo {
 namespace {
 
-constexpr double half_opening = .1;  // slope of the edges of the lips, relative to the x axis
+constexpr double half_opening = .1;  // slope of the lips' edges against the x axis
 
-// Returns two lips: half cylinders of radius 0.2. Their edges cross at x = 0, and the notch between them
-// opens towards +x. The upper lip is farther from the viewer by `behind`.
+// Returns two half cylinders of radius 0.2, like lips. Their edges cross at x = 0, and the notch between
+// them opens towards +x. The upper lip is farther from the viewer by `behind`.
 Cloud lips(std::size_t n, double behind) {
   test::Random random(5);
   Cloud cloud;
@@ -28,7 +28,7 @@ Cloud lips(std::size_t n, double behind) {
   return cloud;
 }
 
-// Returns the largest x at which a triangle inside the outline crosses the centre line between the lips.
+// Returns the largest x at which a triangle inside the outline crosses the line midway between the lips.
 double end_of_notch(const Surface& surface) {
   double end = -1;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {

@@ -16,14 +16,14 @@ constexpr std::size_t width = 96, height = 72;
 constexpr double focal = 100;
 const double nowhere = std::numeric_limits<double>::quiet_NaN();
 
-// Returns the ray of a pixel of a camera that looks along z, with y down.
+// Returns the viewing ray of a pixel. The camera looks along z, and its y axis points down.
 Vec3 ray(std::size_t pixel) {
   const auto c = static_cast<double>(pixel % width), r = static_cast<double>(pixel / width);
   return {(c - 47.5) / focal, (r - 35.5) / focal, 1};
 }
 
-// The cloud of a ball of radius 0.5 at a distance of 2, with nothing behind it, and with noise along the
-// rays.
+// Makes the cloud of a ball of radius 0.5 at a distance of 2. Nothing is behind the ball, and the points
+// have noise along the rays.
 struct Ball {
   Vec3 middle{.1, -.05, 2};
   double radius = .5;
@@ -45,7 +45,7 @@ struct Ball {
   }
 };
 
-// Returns the mean distance from the ball of the points that face the camera.
+// Returns the mean distance of the points from the ball's surface. Only points that face the camera count.
 double mean_distance(const std::vector<Vec3>& points, const Ball& ball) {
   double sum = 0, count = 0;
   for (const Vec3& p : points)
@@ -82,7 +82,7 @@ TEST(SmoothOrganised, GivesNormalsOfTheSurfaceThatFaceTheCamera) {
   EXPECT_GT(seen, 600U);
 }
 
-// Rotating a cloud about the camera must rotate the smoothed cloud in the same way.
+// If a cloud is rotated about the camera, the smoothed cloud must be rotated in the same way.
 TEST(SmoothOrganised, IsTheSameInAnyAttitude) {
   const Mat3 turn = (Eigen::AngleAxisd(2.1, Vec3::UnitX()) * Eigen::AngleAxisd(.4, Vec3::UnitZ())).matrix();
   OrganisedCloud scan = Ball().cloud(.003), turned = scan;
@@ -103,7 +103,7 @@ TEST(SmoothOrganised, LeavesPointsThatAreNoPictureAsTheyAre) {
   OrganisedCloud scattered{{}, width};
   for (std::size_t i = 0; i < width * height; ++i)
     scattered.cloud.points.emplace_back(any(random), any(random), any(random));
-  OrganisedCloud parallel = Ball().cloud(0);  // becomes a cloud of parallel rays
+  OrganisedCloud parallel = Ball().cloud(0);  // converted to a cloud of parallel rays below
   for (std::size_t i = 0; i < parallel.cloud.size(); ++i)
     parallel.cloud.points[i].head<2>() = Vec2(ray(i).head<2>());
   OrganisedCloud ragged = Ball().cloud(0);
@@ -117,7 +117,7 @@ TEST(SmoothOrganised, LeavesPointsThatAreNoPictureAsTheyAre) {
   }
 }
 
-// Pictures of disparities have blurred outlines. Points of the blur are removed, unless they are to be kept.
+// Pictures of disparities have blurred outlines. Points of the blur must be removed, unless the option keeps them.
 TEST(SmoothOrganised, TakesOutBlurUnlessItIsKept) {
   OrganisedCloud scan{{}, width};
   for (std::size_t i = 0; i < width * height; ++i) {

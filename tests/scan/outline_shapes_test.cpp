@@ -1,4 +1,4 @@
-// Compares outlines of clouds with closed forms, for shapes with sharp corners, with a hole, and with noise.
+// Compares outlines of clouds with closed forms. The shapes have sharp corners, a hole, or noise.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The points on the boundary of a cloud, in the view plane and relative to the model's origin.
+// The points on the boundary of a cloud, in the view plane, relative to the model's origin.
 struct SeenOutline {
   std::vector<Vec2> places;
   double rho = 0;
@@ -28,7 +28,7 @@ SeenOutline outline_of(const Cloud& cloud, const View& view) {
   return outline;
 }
 
-// Statistics of the distances of points from a curve, in rho.
+// Statistics of the distances between points and a curve, in rho.
 struct Deviation {
   double mean = 0, scatter = 0, farthest = 0;
 };
@@ -48,7 +48,7 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// The number of points of a scan, and the standard deviation of its noise along the normals, in rho. Scans
+// The number of points of a scan, and the standard deviation of the noise along the normals, in rho. Scans
 // with noise have no normals.
 struct ScanKind {
   std::size_t points = 0;
@@ -64,8 +64,8 @@ class OutlinesOfShapes : public testing::TestWithParam<ScanKind> {
 };
 
 TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
-  // A ball whose centre moves along a circle covers a torus. In the view the circle is an ellipse, so both
-  // outlines of the torus have the ball's radius as their distance from this ellipse.
+  // A torus is the union of balls whose centres are on a circle. In the view this circle is an ellipse. So
+  // the distance of both outlines of the torus from this ellipse is the radius of the balls.
   const SeenOutline outline =
       outline_of(scan(test::torus(GetParam().points, 2, .5)), *view_towards({0, -1, 1}));
   const auto inner = std::ranges::count_if(
@@ -78,7 +78,7 @@ TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
   EXPECT_LT(off.scatter, is_clean ? .02 : .07);
 }
 
-// The number of teeth of a flat gear, and the radii of its gaps and of its teeth.
+// The number of a flat gear's teeth, and the radii of its gaps and of its teeth.
 constexpr int teeth = 12;
 constexpr double root = .8, tip = 1;
 
@@ -95,7 +95,7 @@ Cloud gear(std::size_t n) {
 }
 
 TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
-  // The points are scattered, so the position of the outline on each side of a corner is uncertain by half a
+  // The points are scattered, so on each side of a corner the position of the outline is uncertain by half a
   // sampling distance.
   const SeenOutline outline = outline_of(scan(gear(GetParam().points)), View{});
   std::vector<double> off;

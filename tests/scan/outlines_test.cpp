@@ -13,12 +13,12 @@ namespace {
 
 using test::surface_of;
 
-// Returns a button of radius 1.15 with a button of half that size in front of it.
+// Returns a button of radius 1.15, and in front of it a button of half that size.
 Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// Returns the distances of the surface's points from the model's z axis, for the points i with holds(i).
+// Returns the distances of points of the surface from the model's z axis, for the points i with holds(i).
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;
@@ -28,7 +28,7 @@ std::vector<double> radii(const Surface& surface, Condition holds) {
 }
 
 struct Spread {
-  double mean = 0, deviation = 0, farthest = 0;  // differences from a given radius, in rho
+  double mean = 0, deviation = 0, farthest = 0;  // of differences from a given radius, in rho
 };
 
 Spread spread(const std::vector<double>& radii, double radius, double rho) {
@@ -90,7 +90,7 @@ TEST(Outlines, OfANoisyScanStayNear) {
   EXPECT_LT(s.deviation, .1);
 }
 
-// Returns the longest edge of the triangles inside the outline, measured in the view plane and in rho.
+// Returns the longest edge of all triangles inside the outline, measured in the view plane, in rho.
 double longest_side(const Surface& surface) {
   double longest = 0;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -101,7 +101,7 @@ double longest_side(const Surface& surface) {
   return longest / surface.rho;
 }
 
-// Returns points of a square on a regular grid, displaced by up to a third of the spacing.
+// Returns points of a square on a regular grid, each displaced by up to a third of the spacing.
 Cloud jittered_square(int per_side, double half) {
   test::Random random(17);
   Cloud cloud;
@@ -140,7 +140,7 @@ TEST(Outlines, LeaveNoGapInside) {
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
-  // A second sheet covers the first sheet except for a sliver, in which there is at most one row of points.
+  // A second sheet covers the first sheet except for a narrow strip, in which there is at most one row of points.
   for (const double width : {.3, .6, 1.}) {
     Cloud cloud = jittered_square(200, 1);
     const double rho = surface_of(cloud).rho;
@@ -161,8 +161,8 @@ double width_of(const Surface& surface) {
   return box.size().x();
 }
 
-// From left to right: a sphere, the larger button, and a smaller sphere. None of them is so small that it is
-// left out as a crumb.
+// The cloud has, from left to right, a sphere, a larger button, and a smaller sphere. None of them is so
+// small that it would be left out as a crumb.
 TEST(Outlines, LeaveOutAllButTheLargestPieces) {
   const Cloud button = test::button(40000, 1, .15);
   const Cloud cloud = test::joined(test::joined(button, test::moved(test::sphere(6000, .4), {-1.8, 0, 0})),

@@ -66,7 +66,7 @@ TEST(PictureCloud, NeedsTwoBrightnesses) {
             "expected a picture with bright and dark pixels, found one brightness");
 }
 
-// A round hill, stored in pixels of half the width, must become round again.
+// The pixels are half as wide as high. A round hill that is stored in such pixels must become round again.
 TEST(DepthCloud, IsStretchedByTheSizeOfPixels) {
   DepthImage image{filled_image(80, 40, 0.F), 0, "test"};
   for (int r = 0; r < 40; ++r)

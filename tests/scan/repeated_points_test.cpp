@@ -19,8 +19,8 @@ const Cloud& single() {
   return cloud;
 }
 
-// Describes the cloud that repeated() returns: each point with y < up_to appears `copies` times, and every
-// other point once. All are moved by Gaussian noise.
+// Describes the cloud that repeated() returns. Each point with y < up_to appears `copies` times in it;
+// every other point appears once. All points are moved by Gaussian noise.
 struct Repeats {
   std::size_t copies = 1;
   double jitter = 0;  // standard deviation of the noise, as a fraction of `size`
@@ -50,9 +50,9 @@ double farthest_from_torus(const Surface& surface) {
   return farthest;
 }
 
-// Returns the largest difference between the points or normals of two surfaces; infinity if they have
-// different numbers of points. If the points were in another order, the difference is not exactly 0, because
-// sums over neighbours are rounded differently.
+// Returns the largest difference between the points or normals of two surfaces; infinity if the numbers of
+// points differ. If one surface was made from points in another order, the difference is not exactly 0,
+// because sums over neighbours are rounded differently.
 double farthest_apart(const Surface& a, const Surface& b) {
   if (a.points.size() != b.points.size()) return std::numeric_limits<double>::infinity();
   double farthest = 0;
@@ -132,14 +132,14 @@ TEST(RepeatedPoints, AreNotSeenAmongScatteredOnes) {
   }
 }
 
-// Marching cubes create up to three vertices near a corner of the grid. Such vertices must not count as
-// repeated points.
+// Marching cubes create up to three vertices near a corner of the grid. These vertices must not count
+// as repeated points.
 TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   test::Random random(3);
   Cloud mesh;
   for (int y = 0; y < 100; ++y)
     for (int x = 0; x < 100; ++x) {
-      const double off = random.uniform(-.5, .5);  // offset of the surface from the corner of the grid
+      const double off = random.uniform(-.5, .5);  // distance of the surface from the corner of the grid
       test::add(mesh, Vec3(x, y, off), Vec3(0, 0, 1));
       if (off > 0) test::add(mesh, Vec3(x + off, y, 0), Vec3(0, 0, 1));
       if (off > 0) test::add(mesh, Vec3(x, y + off, 0), Vec3(0, 0, 1));
@@ -147,7 +147,7 @@ TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
   EXPECT_EQ(without_repeated_points(mesh).size(), mesh.size());
 }
 
-// Each patch has 30 points. The patches are so far apart that they are not connected.
+// The cloud consists of patches of 30 points, which are so far apart that they are not connected.
 TEST(LostFigure, IsRefused) {
   Cloud shreds;
   for (int row = 0; row < 300; ++row)

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Interpolating a plane between any points gives the same plane. Outside the triangles the height is 0.
+// If heights of a plane are interpolated, the result is the same plane. Outside the triangles the height is 0.
 TEST(Resample, GivesTheHeightsOfTrianglesAtOtherPoints) {
   const Surface from = test::surface_of(test::sheet(4000, 1, 0)),
                 to = test::surface_of(test::sheet(3000, 1.2, 0, 9));

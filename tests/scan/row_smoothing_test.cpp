@@ -10,9 +10,9 @@ namespace {
 
 using Values = std::vector<SideInterpolation::Value>;
 
-constexpr double rho = .1, spacing = .5;  // spacing: distance between the points of a row, in rho
+constexpr double rho = .1, spacing = .5;  // spacing: distance between points of a row, in rho
 
-// Returns `count` points along the x axis as a row.
+// Returns a row of `count` points along the x axis.
 std::vector<RowPoint> row(std::size_t count, Index number) {
   std::vector<RowPoint> points;
   for (std::size_t i = 0; i < count; ++i) {
@@ -22,7 +22,7 @@ std::vector<RowPoint> row(std::size_t count, Index number) {
   return points;
 }
 
-// Returns values with depths that increase by rho / 2 per rho.
+// Returns values whose depths increase by rho / 2 over a length of rho.
 Values slope(const std::vector<RowPoint>& points) {
   Values values;
   for (const RowPoint& p : points) {

@@ -41,7 +41,7 @@ double slab(Vec2 at, Vec2 half, double x, double y) {
   return rising(half.x() - std::abs(x - at.x())) * rising(half.y() - std::abs(y - at.y()));
 }
 
-// Returns the height of five letters, made of bars of height 1.
+// Returns the height at (x, y) of five letters, made of bars of height 1.
 double letters(double x, double y) {
   constexpr double size = .14;
   double z = 0;
@@ -54,7 +54,7 @@ double letters(double x, double y) {
   return z;
 }
 
-// Returns the height of a head with a nose and shoulders, which is about 1 high.
+// Returns the height at (x, y) of a head with a nose and shoulders. It is about 1 high.
 double head(double x, double y) {
   return std::max({hump({0, .2}, {.25, .35}, 1, x, y) + hump({0, .15}, {.05, .1}, .3, x, y),
                    hump({0, -.15}, {.12, .3}, .6, x, y), hump({0, -.5}, {.55, .22}, .8, x, y)});
@@ -178,7 +178,7 @@ std::vector<Scan> one_sided_scans() {
           {"steps", plate(1, .7, steps)}};
 }
 
-// Returns points on an object, rotated and without normals.
+// Returns points on an object, rotated by `turn`, without normals.
 Cloud scanned(const Scan& scan, const Mat3& turn, std::uint64_t seed) {
   test::Random random(seed);
   Cloud cloud;
@@ -240,8 +240,8 @@ TEST(ScannedSide, BustsStandOnTheirBroadFoot) {
   EXPECT_GT(side_of(scan, turn, 1).up.dot(turn.col(1)), .95);
 }
 
-// Returns the side of the bust at that distance from a camera at the origin. The rows of `to_camera` are the
-// axes of the camera in the coordinates of the bust.
+// Returns the side of the bust that a camera sees. The camera is at the origin, and the bust at the given
+// distance. The rows of `to_camera` are the axes of the camera in the coordinates of the bust.
 Side seen_by_camera(const Mat3& to_camera, double distance) {
   Cloud cloud = scanned({"bust", bust}, to_camera, 1);
   for (Vec3& p : cloud.points) p.z() += distance;

@@ -7,8 +7,8 @@
 namespace relievo {
 namespace {
 
-// Returns a wall of points 0.01 apart with a square window, and that part of a wall at depth z that is
-// visible through the window.
+// Returns a wall with a square window, and the part of a second wall, at depth z, that is visible
+// through the window. Points of both walls are 0.01 apart.
 Cloud window(double half_width, double z) {
   test::Random random(3);
   Cloud cloud;
@@ -31,13 +31,13 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   const auto seen = [](double half_width, double z) {
     return points_at(*find_surface(window(half_width, z), View{}), z);
   };
-  EXPECT_EQ(seen(.035, -.5), 0U);  // the patch has about 49 points
+  EXPECT_EQ(seen(.035, -.5), 0U);  // the patch has only about 49 points
   EXPECT_GT(seen(.1, -.5), 200U);
   EXPECT_GT(seen(.035, .5), 20U);  // a stud in front of a wall is visible
 }
 
-// A patch is behind a wall and beside its edge, across a gap of 3.5 spacings. The patch is so steep that its
-// continuation across the gap would reach the wall, so the gap cannot be recognised by depth.
+// A patch lies behind a wall, beside the wall's edge, across a gap of 3.5 spacings. It is so steep that its
+// continuation across the gap would reach the wall, so the depths do not show the gap.
 TEST(SmallPatches, BeyondAGapAreLeftOut) {
   Cloud cloud = window(0, 0);
   const double edge = .495, step = .01;

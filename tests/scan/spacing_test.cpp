@@ -23,7 +23,7 @@ TEST(Spacing, ScalesWithTheCloudAndDoesNotDependOnTheOrder) {
   EXPECT_EQ(measure_spacing(test::reversed(cloud)).rho, rho);
 }
 
-// A search that reads all coincident points would take minutes.
+// If the search read all coincident points, it would take minutes.
 TEST(Spacing, IsFoundAmongManyCoincidentPoints) {
   Cloud cloud = test::sphere(150'000, 1);
   const double rho = measure_spacing(cloud).rho;
@@ -33,7 +33,7 @@ TEST(Spacing, IsFoundAmongManyCoincidentPoints) {
   EXPECT_GT(spacing.rho, .5 * rho);
 }
 
-// Compares the neighbours with those found by brute force.
+// Compares the neighbours with neighbours found by brute force.
 TEST(Spacing, FindsTheNearestOtherPoints) {
   const Cloud cloud = test::sphere(300, 1);
   const Spacing spacing = measure_spacing(cloud);

@@ -14,9 +14,10 @@
 namespace relievo {
 namespace {
 
-constexpr double noise = .01;  // standard deviation of the points' distances from their plane
+constexpr double noise = .01;  // standard deviation of the distances from the plane
 
-// Adds a square of side 2 * half around the origin, perpendicular to `normal`, with noise along the normal.
+// Adds points of a square of side 2 * half around the origin. The square is perpendicular to `normal`, and
+// the noise is along the normal.
 void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half) {
   test::Random random(11);
   const Vec3 n = normal.normalized(), side = Vec3::UnitY().cross(n).normalized(), across = n.cross(side);
@@ -26,8 +27,8 @@ void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half
   }
 }
 
-// Returns a sphere of radius 1 and a square of side 4 that touch at the origin. The square is perpendicular
-// to `normal`.
+// Returns a sphere of radius 1 and a square of side 4, which touch at the origin. The square is
+// perpendicular to `normal`.
 Cloud sphere_before(const Vec3& normal) {
   Cloud cloud = test::moved(test::sphere(20000, 1), normal.normalized());
   add_plane(cloud, 20000, normal, 2);
@@ -46,7 +47,7 @@ Surface surface_of(const Cloud& cloud, bool has_plane = true) {
 }
 
 // Returns the fraction of the visible points that are on the plane. The sphere hides some points of the
-// plane; all others are visible.
+// plane. All other points of the plane are visible.
 double visible_share(const Cloud& cloud, const Vec3& centre) {
   std::size_t plane = 0, sphere = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -95,13 +96,13 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   Box box;
   for (const Vec3& p : without.points) {
     box.extend(p);
-    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points on outlines are between those of the scan
+    EXPECT_NEAR((p - centre).norm(), 1, .06);  // points of outlines lie between points of the scan
   }
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
 
-// The ridge beside the sphere has different normals from the plane, but is too low to be a figure. So it is
-// left out with the plane.
+// The ridge beside the sphere has other normals than the plane, but is too low to be a figure. So it must
+// be left out with the plane.
 TEST(SupportPlane, IsLeftOutWithItsRidges) {
   const Vec3 normal = tilted(50), up = normal.cross(Vec3::UnitX());
   Cloud cloud = sphere_before(normal);
@@ -116,8 +117,8 @@ TEST(SupportPlane, IsLeftOutWithItsRidges) {
   for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
 }
 
-// If the table is kept, a small ball beside the sphere is always kept. If the table is left out, the ball is
-// left out as debris, unless it has enough points compared with the largest piece.
+// A small ball lies beside the sphere. If the table is kept, the ball is kept, too. If the table is left
+// out, the ball must be left out as debris, unless it has enough points compared with the largest piece.
 TEST(SupportPlane, IsLeftOutWithDebris) {
   const Vec3 normal = tilted(50), place = 1.7 * Vec3::UnitX() + .5 * normal;
   for (const std::size_t points : {500, 4000}) {
@@ -159,8 +160,8 @@ TEST(SupportPlane, IsNoFaceOfASolid) {
   EXPECT_FALSE(surface_of(test::torus(20000, 2, .5)).plane);
 }
 
-// The ground of a plaque is not a support plane. Letters rise above it by 1/50 of the plaque's width, a
-// relief by 1/20.
+// The ground of a plaque must not count as a support plane. The letters on it are 1/50 as high as the
+// plaque is wide, the relief 1/20.
 TEST(SupportPlane, IsNoPlaquesGround) {
   EXPECT_FALSE(surface_of(test::sheet(20000, 1, 0, 5)).plane);
   for (const double half : {.1, .3, .7})

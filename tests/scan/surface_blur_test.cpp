@@ -17,7 +17,7 @@ TEST(SurfaceBlur, KeepsAConstant) {
   for (const Vec2f& v : values) ASSERT_LT((v - Vec2f(3, -2)).norm(), 1e-5);
 }
 
-// A Gaussian of standard deviation s multiplies a wave of wave number k by exp(-(s k)^2 / 2).
+// A Gaussian of standard deviation s multiplies a wave with wave number k by exp(-(s k)^2 / 2).
 TEST(SurfaceBlur, WeakensWavesAsAGaussianDoes) {
   const Cloud sheet = test::sheet(100000, 1, 0);
   for (const double sigma : {.03, .06})
@@ -46,7 +46,7 @@ TEST(SurfaceBlur, DoesNotReachASheetBehind) {
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(values[i].x(), both.points[i].z(), 1e-6);
 }
 
-// A grid over the bounding box of all points would have about 200 x 200 x 200 cells.
+// A grid over the bounding box of all points would have about 200 x 200 x 200 cells, which is far too many.
 TEST(SurfaceBlur, HasCellsAroundThePointsAlone) {
   const std::vector<Vec3> four = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {1, 1, .5}};
   EXPECT_LE(SurfaceBlur(four, .0045).number_of_cells(), 4U * 4 * 4 * 4);

@@ -37,8 +37,8 @@ TEST(Surface, RefusesNumbersThatAreNone) {
   EXPECT_TRUE(failure(cloud).contains("found 999"));
 }
 
-// Most points are in a hundredth of the sheet. Nevertheless its whole area of 4 must be covered, except at
-// its edge.
+// Most points are in a hundredth of the sheet. Nevertheless the whole area of the sheet, 4, must be
+// covered, except at its edge.
 TEST(Surface, CoversSparsePartsToo) {
   const Surface surface =
       test::surface_of(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)));
@@ -54,9 +54,8 @@ TEST(Surface, RefusesACloudThatFacesAway) {
   EXPECT_TRUE(message.contains("--view back or --view auto")) << message;
 }
 
-// A camera at the origin has scanned the near half of a ball and a little of the other half. Its y axis
-// points down, and its z axis away from the viewer. In the front view, only points of the other half would be
-// visible.
+// A camera at the origin has scanned the near half of a ball, and a little of the far half. The camera's y axis points
+// down, its z axis away from the viewer. In the front view, only points of the far half would be visible.
 TEST(Surface, NamesTheSideThatWasScanned) {
   const auto is_scanned = [](const Vec3& p) { return p.z() < .2; };
   Cloud scan = test::where(test::sphere(20'000, 1), is_scanned);

@@ -21,13 +21,13 @@ TEST(TurnedSurface, LiesOnTheSphere) {
   ASSERT_GT(sphere.surface.points.size(), 3'000U);
   for (std::size_t i = 0; i < sphere.surface.points.size(); ++i) {
     const Vec3& p = sphere.surface.points[i];
-    if (p.head<2>().norm() > .9) continue;  // nearly edge on, where the depth within a cell varies much
+    if (p.head<2>().norm() > .9) continue;  // nearly edge on; there the depth within a cell varies much
     EXPECT_NEAR(p.norm(), 1, .02);
     EXPECT_GT(sphere.surface.normals[i].cast<double>().dot(p.normalized()), .998);
   }
 }
 
-// The smaller sheet hides the central part of the larger sheet behind it, so the covered area is that of the
+// The smaller sheet hides only a part of the larger sheet behind it. So the covered area is the area of the
 // larger sheet.
 TEST(FrontCells, ShowsWhatIsInFront) {
   const TurnedSurface sheets =
@@ -40,7 +40,7 @@ TEST(FrontCells, ShowsWhatIsInFront) {
       area += static_cast<double>(front.cell * front.cell);
       const Vec2f place = front.centre(x, y).cwiseAbs();
       const float reach = place.maxCoeff();
-      if (std::abs(reach - .5F) < .05F) continue;  // next to the jump
+      if (std::abs(reach - .5F) < .05F) continue;  // next to the depth jump
       EXPECT_NEAR(front.depth.at(x, y), reach < .5F ? .35F : -.35F, 1e-4F);
     }
   EXPECT_NEAR(area, 4, .15);
@@ -81,8 +81,8 @@ FrontCells random_front(unsigned seed) {
   return front;
 }
 
-// Returns the size of each cell's component. A component is a connected set of cells that are all covered or
-// all uncovered; it is found by walking from cell to cell.
+// Returns, for each cell, the size of its component. A component is a connected set of cells that are all
+// covered or all uncovered. It is found by walking from cell to cell.
 std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   const Image<Vec3f>& normal = front.normal;
   std::vector<std::size_t> sizes;
@@ -106,8 +106,8 @@ std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   return sizes;
 }
 
-// Expects that the covered cells are those for which is_covered() returns true, and that `covered` is their
-// number.
+// Expects that exactly the cells for which is_covered() returns true are covered, and that `covered` is the
+// number of these cells.
 template <typename F>
 void expect_covered(const FrontCells& front, F&& is_covered) {
   std::size_t covered = 0;

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// One face of the slab is carved. This face is its best view.
+// One face of the slab is carved. The view of this face must be the best one.
 TEST(ViewRanking, RanksTheCarvedSideFirst) {
   const Cloud slab = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
@@ -22,12 +22,12 @@ TEST(ViewRanking, RanksTheCarvedSideFirst) {
   EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
 }
 
-// Returns a part of a sphere as scanned from +Z, without its back.
+// Returns a part of a sphere, as if scanned from +Z: without its back.
 Cloud dome() {
   return test::where(test::sphere(40000, 1), [](const Vec3& p) { return p.z() > .3; });
 }
 
-// Rotates a cloud. Removes its normals unless `has_normals` is true.
+// Rotates a cloud. If `has_normals` is false, removes the normals.
 Cloud mapped(const Cloud& cloud, const Mat3& turn, bool has_normals = true) {
   Cloud out = cloud;
   for (Vec3& p : out.points) p = turn * p;
@@ -65,8 +65,8 @@ TEST(ViewRanking, DoesNotMindNormalsThatPointInwards) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(inward_first[i].name, outward_first[i].name);
 }
 
-// Returns a tall round column that is widest at its foot. It looks the same from all directions perpendicular
-// to `up`.
+// Returns a tall round column with a foot that is wider than the rest. It looks the same from all directions
+// perpendicular to `up`.
 Cloud column(const Vec3& up) {
   test::Random random(7);
   Cloud cloud;

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns the model's direction `axis` in the coordinates of a view.
+// Returns the direction `axis` of the model in the coordinates of a view.
 Vec3 seen(std::string_view view, const Vec3& axis, std::string_view up = {}) {
   return parse_view(view, up)->R_view_model * axis;
 }
@@ -99,7 +99,7 @@ TEST(Denoise, IsAutoOrANumberUpToOne) {
 
 TEST(Crop, KeepsThePointsInsideInTheirOrder) {
   const Cloud cloud = test::sphere(2000, 1);
-  View view = *parse_view("right");  // looks along -X; -Z is to the right
+  View view = *parse_view("right");  // the view along -X; -Z is to the right
   view.crop = *parse_crop("0,.5,1,1,0,.25");
   const Cloud part = cropped(cloud, view);
   std::vector<Vec3> expected;

@@ -15,7 +15,7 @@ std::vector<Index> visible(const Cloud& cloud) {
   return visible_points(cloud, measure_spacing(cloud));
 }
 
-// Returns the fraction of the points in [first, last) that are in `found`.
+// Returns the fraction of the points with indices in [first, last) that are in `found`.
 double share(const std::vector<Index>& found, std::size_t first, std::size_t last) {
   const auto begin = std::lower_bound(found.begin(), found.end(), first);
   const auto end = std::lower_bound(found.begin(), found.end(), last);
@@ -45,7 +45,8 @@ TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
   EXPECT_EQ(behind_found, 0U);
 }
 
-// The right half of the front sheet has a tenth of the density. It must still hide the sheet behind it.
+// In the right half of the front sheet, the points are a tenth as dense. Still, this half must hide the
+// sheet behind it.
 TEST(Visible, UnevenDensityLeavesNoHoles) {
   test::Random random(22);
   const Cloud uneven = test::where(test::sheet(60000, 1, .5, 21),
@@ -82,12 +83,12 @@ TEST(Visible, SpecksAreRemovedAndCounted) {
   for (int speck = 0; speck < 7; ++speck)
     for (int k = 0; k < 5; ++k) test::add(cloud, {.2 * speck - .6, .001 * k, 1}, Vec3::UnitZ());
   const VisiblePoints found = find_visible(cloud, measure_spacing(cloud));
-  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may also be removed
+  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may be removed, too
   EXPECT_EQ(share(found.points, n, cloud.size()), 0);
   EXPECT_GT(share(found.points, 0, n), .999);
 }
 
-// In one part of a mesh, points may be forty times as far apart as in another.
+// In one part of a mesh, the distances between points may be forty times as large as in another part.
 TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
   const std::size_t dense = 50000, sparse = 3000;
   const Cloud both = test::joined(test::sheet(dense, .1, 0, 11), test::sheet(sparse, 1, 0, 12));
@@ -106,8 +107,8 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
-// The ledge starts at the edge of the depth image with a width of one pixel. The points there have no near
-// neighbours. Unless the cloud is marked as a height field, such points hide many others.
+// The ledge begins at the edge of the depth image, one pixel wide. The points there have no near
+// neighbours. Such points hide many others, unless the cloud is marked as a height field.
 TEST(Visible, OfAHeightFieldIsAll) {
   Cloud steps;
   for (int y = 0; y < 60; ++y)
@@ -119,8 +120,8 @@ TEST(Visible, OfAHeightFieldIsAll) {
   EXPECT_FALSE(turned.is_height_field);
 }
 
-// The front of a box has a hole, through which the inner side of its back is visible. The normals there face
-// away, but the points must fill the hole.
+// The front of a box has a hole, through which the inner side of the back is visible. The normals there face
+// away from the viewer. Still, the points must fill the hole.
 TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   const Cloud front =
       test::where(test::sheet(40000, 1, 0), [](const Vec3& p) { return p.head<2>().norm() > .2; });
@@ -153,7 +154,7 @@ TEST(Visible, OfNothingIsNothing) {
   EXPECT_TRUE(visible({std::vector<Vec3>(10, Vec3::Zero()), std::vector<Vec3f>(10, Vec3f::UnitZ())}).empty());
 }
 
-// A buffer from which discs are taken away must be the buffer of the other discs.
+// After discs are removed from a buffer, it must equal the buffer of the other discs alone.
 TEST(DepthBuffer, ForgetsDiscsThatAreTakenAway) {
   const Cloud sphere = test::sphere(4'000, 1);
   std::vector<Disc> all, gone, rest;

@@ -25,7 +25,7 @@ Matrix dense(const Eigen::SparseMatrix<double>& lower) {
   return Matrix(lower).selfadjointView<Eigen::Lower>();
 }
 
-// Returns a problem on a jittered grid. Its bounds are between the extremes of the unbounded solution.
+// Returns a problem on a jittered grid. The bounds lie between the extremes of the unbounded solution, so they matter.
 BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   test::PlanarSystem system = test::jittered_grid(width, height, seed);
   const int n = width * height;
@@ -37,7 +37,7 @@ BoundedFit problem(int width, int height, bool is_plate, std::uint64_t seed) {
   return fit;
 }
 
-// The energy 1/2 x^T H x - f^T x of a problem with dense matrices. For a plate the constant term is missing.
+// The energy 1/2 x^T H x - f^T x of a problem, with dense matrices. For a plate, the constant term is left out.
 struct DenseEnergy {
   Matrix H;
   Vector f;
@@ -52,8 +52,8 @@ struct DenseEnergy {
   double operator()(const Vector& x) const { return x.dot(H * x) / 2 - f.dot(x); }
 };
 
-// The base-3 digits of `choice` say for each unknown whether it is free, at its lower bound or at its upper
-// bound. Returns the field under this choice if it satisfies the Karush-Kuhn-Tucker conditions.
+// Returns the solution for one choice of active bounds, if it satisfies the Karush-Kuhn-Tucker conditions. The base-3
+// digits of `choice` say for each unknown whether it is free, at its lower bound or at its upper bound.
 std::optional<Vector> solution_for(const BoundedFit& fit, const DenseEnergy& energy, int choice) {
   const auto n = static_cast<int>(fit.load.size());
   Matrix K = Matrix::Identity(n, n);
@@ -85,7 +85,8 @@ TEST(BoundedFit, IsTheSolutionAmongAllSetsOfActiveBounds) {
     }
 }
 
-// The test computes the duality gap again. The gap must bound how much less energy a more exact solution has.
+// The test computes the duality gap itself. The energy of a more exact solution must not be lower by more
+// than this gap.
 TEST(BoundedFit, KeepsItsBoundsAndItsTolerance) {
   for (const bool is_plate : {false, true}) {
     const BoundedFit fit = problem(30, 20, is_plate, 5);
@@ -120,8 +121,8 @@ TEST(BoundedFit, WithDistantBoundsSolvesTheEquations) {
   }
 }
 
-// A string of length 1 under a load of 8 would rise to 1. Under a ceiling at 1/4 it is a parabola up to a
-// distance of sqrt(2 * 0.25 / 8) = 1/4 from its ends, and touches the ceiling in between.
+// Without a ceiling, a string of length 1 under a load of 8 would rise to 1. Under a ceiling at 1/4, it is a
+// parabola up to a distance of sqrt(2 * 0.25 / 8) = 1/4 from its ends. In between it touches the ceiling.
 TEST(BoundedFit, OfAStringUnderACeilingIsItsClosedForm) {
   constexpr int n = 199;
   constexpr double step = 1. / (n + 1);

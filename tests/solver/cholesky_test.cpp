@@ -18,8 +18,8 @@ namespace {
 std::atomic<std::size_t> allocations = 0;
 }
 
-// Counts every allocation of the test program, except with sanitizers, which replace operator new themselves.
-// The operators are not inlined, because the compiler would then warn that new and free do not match.
+// Counts all allocations of the test program. Sanitizers replace operator new themselves, so nothing is counted in
+// their builds. The operators are not inlined, because the compiler would then warn that new and free do not match.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RELIEVO_COUNTS_ALLOCATIONS
 [[gnu::noinline]] void* operator new(std::size_t bytes) {
@@ -74,7 +74,7 @@ double relative_error(const Eigen::VectorXd& x, const Eigen::VectorXd& truth) {
   return (x - truth).cwiseAbs().maxCoeff() / std::max(truth.cwiseAbs().maxCoeff(), 1e-300);
 }
 
-// Compares the solutions in both precisions with those of Eigen.
+// Compares the solutions in single and in double precision with those of Eigen.
 void expect_agreement(const Sparse& A, std::span<const Vec2> positions) {
   const Eigen::VectorXd b = random_vector(A.rows());
   const Eigen::SimplicialLDLT<Sparse> oracle(A);
@@ -100,7 +100,7 @@ TEST(Cholesky, AgreesWithSparseEigenOnPlanarGraphs) {
   }
 }
 
-// Positions determine only the order of elimination, so solutions are correct for any positions.
+// Positions determine only the order of elimination. So the solutions must be correct for any positions.
 TEST(Cholesky, IsRightWhereverThePositionsAre) {
   const PlanarSystem system = jittered_grid(45, 40);
   std::vector<Vec2> nowhere(system.positions.size(), Vec2(3, 4)), line = nowhere, infinite = nowhere;
@@ -136,7 +136,7 @@ TEST(Cholesky, OfADiagonalMatrixDivides) {
   for (int i = 0; i < n; ++i) ASSERT_NEAR(x[i] * (i + 1), b[i], 1e-13);
 }
 
-// One vertex is connected to all others, so one column is dense.
+// One vertex is connected to all others, so the matrix has a dense column.
 TEST(Cholesky, SolvesAStar) {
   const int n = 3000;
   Sparse A(n, n);
@@ -176,7 +176,7 @@ TEST(Cholesky, DoesNotMindTheUnit) {
   const auto factor = Cholesky::factor(system.A, system.positions);
   const Eigen::VectorXd b = random_vector(900), x = solved(*factor, b);
   for (const double unit : {0x1p-400, 0x1p300})
-    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // multiplication by a power of two is exact
+    EXPECT_EQ(solved(*factor, unit * b), unit * x);  // exact, because the factor is a power of two
   EXPECT_EQ(solved(*factor, Eigen::VectorXd::Zero(900)), Eigen::VectorXd::Zero(900));
 }
 
@@ -266,8 +266,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
   indefinite.insert(1, 1) = -1;
   singular.insert(0, 0) = 1;
   not_finite.insert(0, 0) = std::numeric_limits<double>::quiet_NaN();
-  // Each row adds up to 0, so the matrix is singular. Because of rounding, its last pivot may not be exactly
-  // 0.
+  // Each row adds up to 0, so the matrix is singular. Its last pivot is 0 only up to rounding.
   for (int j = 0; j < 400; ++j) floating.coeffRef(j, j) = 0;
   for (int j = 0; j < 400; ++j)
     for (Sparse::InnerIterator e(floating, j); e; ++e)

@@ -16,7 +16,7 @@ namespace {
 using test::jittered_grid;
 using test::PlanarSystem;
 
-// Returns the number of entries of the factor below the diagonal, by symbolic elimination.
+// Returns the number of entries of the Cholesky factor below the diagonal. Counts them by symbolic elimination.
 std::size_t fill_of(const Graph& graph, std::span<const Index> order) {
   const auto n = static_cast<Index>(order.size());
   std::vector<Index> place(n);
@@ -74,8 +74,7 @@ TEST(Dissection, FillsLessThanMinimumDegree) {
   EXPECT_LT(static_cast<double>(ours), .95 * static_cast<double>(fill_of(graph, minimum_degree(system.A))));
 }
 
-// If positions coincide or are wrong, distances in the graph replace them. This increases the fill by up to
-// 60 %.
+// If positions coincide or are wrong, distances in the graph are used instead. They increase the fill by up to 60 %.
 TEST(Dissection, NeedsNoPositionsForAModestFill) {
   const PlanarSystem system = jittered_grid(100, 100);
   const Graph graph = test::graph_of(system.A);

@@ -18,8 +18,8 @@ bool is_rim(std::size_t n) {
   return x == 0 || y == 0 || x == width - 1 || y == height - 1;
 }
 
-// Returns a tension of 1 and the same bending stiffness at all nodes, except for the nodes at the edge of the
-// lattice, which are fixed.
+// Returns a stiffness with tension 1 and the same bending stiffness at all nodes. The nodes at the edge of
+// the lattice are fixed instead.
 Stiffness even(float bending) {
   Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -27,7 +27,7 @@ Stiffness even(float bending) {
   return all;
 }
 
-// Returns the stiffness of even(), with other values in two adjacent columns of nodes.
+// Returns the stiffness of even(), but with other values in two adjacent columns of nodes.
 Stiffness yielding(float bending, std::size_t column, float hinge, float tension) {
   Stiffness all = even(bending);
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -35,7 +35,7 @@ Stiffness yielding(float bending, std::size_t column, float hinge, float tension
   return all;
 }
 
-// Returns a load, with ripples, that pulls the left half up and the right half down.
+// Returns the load at node n. It pulls the left half up and the right half down, and has ripples.
 float load(std::size_t n) {
   const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
   return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
@@ -67,8 +67,8 @@ struct Problem {
   }
 };
 
-// Returns the matrix of the energy, L' C L + tension + springs. L is the Laplacian, and C the bending
-// stiffness. The rows of fixed nodes are those of the identity.
+// Returns the matrix of the energy: L' C L + tension + springs. L is the Laplacian, C the bending
+// stiffness. The rows of fixed nodes are rows of the identity.
 Eigen::MatrixXd matrix(const Stiffness& stiffness, const Pulls& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
@@ -129,8 +129,8 @@ std::vector<Tie> slanting_ties(double start, double slope) {
   return ties;
 }
 
-// Without limits, a linear system gives the minimal energy, which is negative. The solver must reach the
-// fraction `share` of it. With three quarters of its sweeps it would miss `share` in all cases.
+// Without limits, the field with the least energy solves a linear system; this energy is negative. The solver must
+// reach at least the fraction `share` of it. Three quarters of the sweeps would not be enough in any of these cases.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
   struct Case {
     Stiffness stiffness;
@@ -167,8 +167,8 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
     }
 }
 
-// Limits increase the energy. The solution must still have less energy than the unlimited solution after it
-// is cut off at the limits.
+// Limits increase the least energy. The solution must still have less energy than a cut-off solution: one
+// that is computed without limits and then cut off at them.
 TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
   constexpr Pulls springs{.02F};
   const Stiffness stiffness = even(4);
@@ -190,7 +190,7 @@ TEST(ObstacleSolver, TakesLimitsThatMeet) {
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
-// The field bends at a hinge: its second difference is larger there than four nodes away.
+// The field must bend at a hinge: its second difference there must be larger than four nodes away.
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
@@ -202,7 +202,8 @@ TEST(ObstacleSolver, BendsAtAHinge) {
   EXPECT_GT(bend(n), 5 * bend(n + 4));
 }
 
-// A hinge with low tension separates its two sides: under opposite loads, the field has a step there.
+// A hinge with low tension separates its two sides. If the loads on both sides are opposite, the
+// field must have a step there.
 TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;
@@ -229,7 +230,7 @@ std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-// A plate that is pushed down rests evenly on its ties, wherever in the cells they are.
+// A plate that is pushed down must rest evenly on its ties, wherever in the cells they lie.
 TEST(ObstacleSolver, RestsEvenlyOnTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   const auto resting = [&](std::span<const Tie> held) {
@@ -244,7 +245,7 @@ TEST(ObstacleSolver, RestsEvenlyOnTies) {
   EXPECT_LT(deviation, .05 * std::abs(free));
 }
 
-// Ties with tie_stiffness 0 have no effect as long as the field is above least_at_ties.
+// Ties with tie_stiffness 0 must have no effect as long as the field is above least_at_ties.
 TEST(ObstacleSolver, LeavesTiesUpwards) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
   Problem tied(even(4), {.02F, 0, -10}, -far, far, ties), free(even(4), {.02F}, -far, far);

@@ -19,7 +19,7 @@ std::vector<float> random_field(unsigned seed, float scale) {
   return field;
 }
 
-// Returns depths with a step at the centre.
+// Returns random depths with a step in the middle.
 std::vector<float> depths() {
   std::vector<float> depth = random_field(1, .3F);
   for (std::size_t n = 0; n < nodes; ++n)
@@ -27,7 +27,8 @@ std::vector<float> depths() {
   return depth;
 }
 
-// Returns a share of the pull for each node. The shares increase to the right and are 0 in a corner.
+// Returns, for each node, the share of the pull that acts on it. The shares increase to the right,
+// and are 0 in one corner.
 std::vector<float> shares() {
   std::vector<float> share(nodes);
   for (std::size_t n = 0; n < nodes; ++n)
@@ -39,8 +40,8 @@ constexpr std::array<float, 2> distances{2, 4.6F};
 constexpr float saturation = .7F;
 constexpr OrderLimits limits{.4F, .3F};
 
-// Returns the energy of the pull by its definition: the sum over all pairs of nodes at one of the distances
-// along a row, a column or a diagonal, rounded to nodes.
+// Computes the energy of the pull by its definition. It is the sum over all pairs of nodes at one of the
+// given distances, along a row, a column or a diagonal; positions are rounded to nodes.
 double energy(const std::vector<float>& depth, const std::vector<float>& heights) {
   const std::vector<float> share_of = shares();
   double sum = 0;
@@ -93,7 +94,7 @@ class OrderPullOfAField : public testing::TestWithParam<unsigned> {
   void SetUp() override { pull.write_bound(b, z, limits, {bound.load, bound.hold, bound.lack}); }
 };
 
-// The bound and the energy have the same slope at b. (Their values at b may differ by a constant.)
+// The bound and the energy must have the same slope at b. Their values at b may differ by a constant.
 TEST_P(OrderPullOfAField, HasABoundThatTouchesItsEnergy) {
   constexpr float step = 1e-2F;
   for (const std::size_t n : {5UL, 60UL, 150UL, 151UL, 200UL, 333UL, nodes - 1}) {
@@ -115,7 +116,7 @@ TEST_P(OrderPullOfAField, IsNowhereAboveItsBound) {
 
 INSTANTIATE_TEST_SUITE_P(Fields, OrderPullOfAField, testing::Values(2U, 3U, 4U));
 
-// The pull does not change pairs that have the right order and are far enough apart.
+// The pull must not change pairs that have the right order and are far enough apart in height.
 TEST(OrderPull, LeavesRightOrderAlone) {
   std::vector<float> depth(nodes), z(nodes);
   for (std::size_t n = 0; n < nodes; ++n) depth[n] = static_cast<float>(n % columns), z[n] = 10 * depth[n];

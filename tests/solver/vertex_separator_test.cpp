@@ -11,8 +11,7 @@
 namespace relievo::solver {
 namespace {
 
-// Returns a random graph with random positions. The size of the smallest separator must not depend on the
-// positions.
+// Returns a random graph with random positions. The smallest separator must have the same size for any positions.
 SeparatorBand random_band(Index n, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<std::vector<Index>> nearby(n);
@@ -51,7 +50,7 @@ bool separates(const SeparatorBand& band, const std::vector<std::uint8_t>& is_re
   return true;
 }
 
-// Returns the size of the smallest separator by testing every set of vertices.
+// Returns the size of the smallest separator, found by testing every set of vertices.
 Index smallest_separator(const SeparatorBand& band) {
   const Index n = band.graph.size();
   Index best = n;

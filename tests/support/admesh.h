@@ -1,4 +1,4 @@
-// Checks solids with admesh, a program that repairs STL files and reports its repairs.
+// Checks solids with admesh, a program that repairs STL files and reports what it has repaired.
 #pragma once
 
 #include <unistd.h>
@@ -24,9 +24,8 @@ inline std::string output_of(const std::string& command) {
   return output;
 }
 
-// Returns the number that admesh reports for `label` after its repairs; -1 if the report has no such line. A
-// line has either only this number, or the number before the repairs followed by this one. Another label may
-// follow.
+// Returns the number that admesh reports for `label` after its repairs; -1 if the report has no such line. A line has
+// either this number alone, or the number before the repairs and then this one. Another label may follow.
 inline int reported(const std::string& report, const std::string& label) {
   const std::size_t line = report.find("\n" + label);
   if (line == std::string::npos) return -1;
@@ -42,7 +41,7 @@ inline bool has_admesh() {
   return is_there;
 }
 
-// Returns the report of admesh; an empty text if there is nothing to repair or admesh is not installed.
+// Returns the report of admesh. Returns an empty text if there is nothing to repair, or if admesh is not installed.
 inline std::string complaint_of_admesh(const Solid& solid, int parts = 1) {
   if (!has_admesh()) return {};
   const auto path = std::filesystem::temp_directory_path() / ("relievo_" + std::to_string(getpid()) + ".stl");

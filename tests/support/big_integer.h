@@ -1,5 +1,4 @@
-// Implements integers that are wide enough for every exact determinant in the tests of floating-point
-// expansions.
+// Implements integers that are wide enough for all exact determinants in the tests of floating-point expansions.
 #pragma once
 
 #include <array>

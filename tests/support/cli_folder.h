@@ -1,4 +1,4 @@
-// Makes a folder with a scan in it for each test, and runs the program `relievo` there.
+// Makes a folder with a scan for each test, and runs the program `relievo` in this folder.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ class CliFolder : public testing::Test {
     fs::remove_all(folder_);
   }
 
-  // Runs `relievo ARGUMENTS` in the test's folder. `before` precedes the program's name in the command.
+  // Runs `relievo ARGUMENTS` in the test's folder. The text `before` is put before the program's name in the command.
   Outcome run(const std::string& arguments, const std::string& before = "") const {
     const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
     const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +
@@ -73,7 +73,7 @@ class CliFolder : public testing::Test {
     return outcome;
   }
 
-  // Expects that the program fails, prints one line that contains `part` to stderr, and leaves no new file.
+  // Expects that the program fails, prints to stderr one line that contains `part`, and leaves no new file.
   void expect_refusal(const std::string& arguments, const std::string& part,
                       const std::string& before = "") const {
     const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };

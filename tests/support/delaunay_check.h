@@ -21,7 +21,7 @@
 
 namespace relievo {
 
-// Returns a fault in the links across the triangles' edges; an empty text if there is none.
+// Returns a fault in the links between triangles with a common edge; an empty text if there is none.
 inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulation& it) {
   std::map<Index, Index> hull_next;
   for (std::size_t k = 0; k < it.hull.size(); ++k) hull_next[it.hull[k]] = it.hull[(k + 1) % it.hull.size()];
@@ -49,8 +49,8 @@ inline std::string fault_of_edges(std::span<const Vec2> points, const Triangulat
   return on_border.size() == it.hull.size() ? "" : "hull";
 }
 
-// Returns whether a closed polygon turns only left, and only once around. The direction of its edges then
-// changes from downwards to upwards only once.
+// Returns whether a closed polygon turns only left, and only once around. If so, the direction of its
+// edges changes from downwards to upwards only once.
 inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Index>& hull) {
   const auto corner = [&](std::size_t k) -> const Vec2& { return points[hull[k % hull.size()]]; };
   const auto is_upwards = [&](std::size_t k) {
@@ -65,7 +65,8 @@ inline bool goes_round_once(std::span<const Vec2> points, const std::vector<Inde
   return turns == 1;
 }
 
-// Returns a fault of a triangulation, whose numbers may be arbitrary; an empty text if there is none.
+// Returns a fault of a triangulation; an empty text if there is none. The numbers of the
+// triangulation may be arbitrary.
 inline std::string delaunay_fault(std::span<const Vec2> points, const Triangulation& it) {
   if (!std::ranges::all_of(points, is_exact_point)) return "coordinates";
   if (it.triangles.empty() || it.neighbours.size() != it.triangles.size()) return "sizes";

@@ -1,4 +1,5 @@
-// Draws depth pictures of clouds without the library, and stores the depths as programs do, to test how they are read.
+// Draws depth pictures of clouds without the library, and stores the depths as other programs do. Tests use the
+// pictures to check how they are read.
 #pragma once
 
 #include <algorithm>
@@ -13,19 +14,19 @@
 
 namespace relievo::test {
 
-// A camera with a figure of one metre in front of it. It has parallel rays, or is a pinhole camera.
+// A camera with a figure of one metre in front of it. Its rays are parallel, or it is a pinhole camera.
 struct PictureCamera {
   static constexpr double distance_m = 1.5;
   int side = 200;  // width and height of the picture in pixels
   bool is_pinhole = false;
 
   double metre_px() const { return side / 1.25; }
-  double focal_px() const { return 1.1 * side; }  // the value assumed for inverse depths
+  double focal_px() const { return 1.1 * side; }  // the library assumes it for inverse depths
 
   DepthCamera as_depth_camera() const { return {focal_px(), focal_px(), (side - 1) / 2., (side - 1) / 2.}; }
 
-  // Maps a point, in metres from the figure's middle, to the picture: x and y in pixels from its middle, z as in the
-  // clouds of depth_cloud().
+  // Maps a point to the picture. The point is given in metres from the figure's middle. In the result, x and y are
+  // pixels from the picture's middle, and z is as in the clouds of depth_cloud().
   Vec3 map(const Vec3& p) const {
     const double depth = distance_m - p.z();
     if (!is_pinhole) return metre_px() * p;
@@ -35,17 +36,17 @@ struct PictureCamera {
     return is_pinhole ? std::exp(-z / focal_px()) : distance_m - z / metre_px();
   }
 
-  // Returns the normal in the picture of a surface that has the normal n at p.
+  // Returns the normal in the picture of a surface that has the normal n at the point p.
   Vec3f map_normal(const Vec3& p, const Vec3& n) const {
     if (!is_pinhole) return n.cast<float>();
     const double depth = distance_m - p.z();
-    // The transpose of the inverse of the derivative of map(), up to a factor.
+    // Multiplies by the transpose of the inverse of the derivative of map(), up to a factor.
     const Vec3 turned(n.x(), n.y(), n.z() - (p.x() * n.x() + p.y() * n.y()) / depth);
     return turned.normalized().cast<float>();
   }
 };
 
-// Returns the cloud, one metre large, as the camera's picture shows it.
+// Returns the cloud in the coordinates of the camera's picture, after scaling it to one metre.
 inline Cloud in_picture(Cloud cloud, const PictureCamera& camera) {
   const Box box = bounds(cloud);
   const double metres = 1 / std::max(box.size().x(), box.size().y());
@@ -59,8 +60,8 @@ inline Cloud in_picture(Cloud cloud, const PictureCamera& camera) {
 
 inline constexpr double no_figure = -std::numeric_limits<double>::infinity();
 
-// Calls visit(pixel, height of the point's tangent plane at the pixel, squared distance of both) for the pixels near
-// each point that faces the viewer.
+// Calls visit(pixel, height, squared distance) for the pixels near each point that faces the viewer. The height is that
+// of the point's tangent plane at the pixel; the distance is that between point and pixel.
 template <typename Visit>
 void visit_pixels(const Cloud& cloud, int side, const Visit& visit) {
   const double middle = (side - 1) / 2.;
@@ -81,8 +82,8 @@ void visit_pixels(const Cloud& cloud, int side, const Visit& visit) {
   }
 }
 
-// Returns the heights that the picture shows: in each pixel the mean of the points nearest to the viewer, weighted by
-// their distance from the pixel's centre.
+// Returns the heights that the picture shows. In each pixel they are a mean over the points nearest to the viewer;
+// points nearer to the pixel's centre have larger weights.
 inline Image<double> heights_in_picture(const Cloud& cloud, int side) {
   constexpr double thickness_px = 1.5, spread_px = .4;
   Image<double> nearest = filled_image(side, side, no_figure);
@@ -96,16 +97,16 @@ inline Image<double> heights_in_picture(const Cloud& cloud, int side) {
   return sum;
 }
 
-// A way to store depths that are in metres.
+// A way to store depths, which are given in metres.
 struct DepthStorage {
   std::string name;
   DepthValues kind = DepthValues::depth;
   double step = 0;                      // 1 for integers, 0 for fractions
   std::function<double(double)> value;  // returns the stored value of a depth
-  bool is_pinhole = false;              // then metric depths come with its focal length
+  bool is_pinhole = false;              // if so, metric depths come with the focal length
 };
 
-// The values of the pixels beside the figure in a depth picture.
+// The values of the pixels beside the figure, in a depth picture.
 struct BesideFigure {
   double wall_m = 0;  // distance of a slightly tilted wall behind the figure; 0 for none
   float missing = 0;  // the value of pixels without a depth
@@ -127,7 +128,7 @@ inline DepthImage depth_picture(const Image<double>& heights, const DepthStorage
 
 using Mask = Image<std::uint8_t>;
 
-// Returns the largest distance, along rows or columns, of a pixel in `from` from the pixels in `to`; at most 9.
+// Returns the largest distance from a pixel in `from` to the nearest pixel in `to`, along rows or columns; at most 9.
 inline int farthest_px(const Mask& from, const Mask& to) {
   int most = 0;
   const auto is_near = [&](int column, int row) {
@@ -142,7 +143,7 @@ inline int farthest_px(const Mask& from, const Mask& to) {
   return most;
 }
 
-// Returns the number of connected parts with less than 0.5 % of the mask's pixels.
+// Returns the number of connected parts that have less than 0.5 % of the mask's pixels.
 inline int count_crumbs(Mask mask) {
   const auto all = static_cast<std::size_t>(std::ranges::count(mask.pixels, 1));
   int crumbs = 0;

@@ -30,7 +30,7 @@ double largest_difference(const A& a, const B& b) {
   double largest = 0;
   for (std::size_t i = 0; i < std::size(a); ++i) {
     const double one = difference(a[i], b[i]);
-    if (!(one <= largest)) largest = one;  // true for NaN, too
+    if (!(one <= largest)) largest = one;  // the condition is true for NaN, too
   }
   return largest;
 }

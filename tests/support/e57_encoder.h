@@ -1,5 +1,4 @@
-// Writes E57 files independently of the library's reader, so that tests can choose the columns and damage the
-// contents.
+// Writes E57 files independently of the library's reader. Tests can choose the columns and damage the contents.
 #pragma once
 
 #include <bit>
@@ -12,7 +11,7 @@
 
 namespace relievo {
 
-// A column of a scan: its element in the prototype, and its numbers. `bits` bits of each number are stored.
+// A column of a scan: its element in the prototype, and its numbers. Of each number, `bits` bits are stored.
 struct E57Column {
   std::string name, attributes;
   unsigned bits = 64;
@@ -51,8 +50,8 @@ inline std::string packed_bits(const E57Column& column) {
   return bytes;
 }
 
-// Returns the packets of a section. Each has at most `most` bytes of every column. The first two packets,
-// which readers must skip, are an index packet and an empty packet.
+// Returns the packets of a section. Each packet has at most `most` bytes of every column. The first two
+// packets are an index packet and an empty packet, which readers must skip.
 inline std::string e57_packets(const std::vector<E57Column>& columns, std::size_t most) {
   std::string all =
       std::string("\x00\x00\x0F\x00", 4) + std::string(12, '\0') + std::string("\x02\x00\x03\x00", 4);
@@ -80,7 +79,7 @@ inline std::uint32_t bitwise_crc32c(std::string_view bytes) {
   return ~crc;
 }
 
-// Divides the contents into pages of 1,024 bytes with checksums, and writes the new length to the header.
+// Divides the contents into pages of 1,024 bytes with checksums. Writes the new length to the header.
 inline std::string e57_pages(std::string contents) {
   contents.resize((contents.size() + 1019) / 1020 * 1020, ' ');
   contents = patched(contents, 16, static_cast<std::uint64_t>(contents.size() / 1020 * 1024));

@@ -1,5 +1,4 @@
-// Makes small valid files of every format, independently of the library's readers. Tests change and damage
-// these files.
+// Makes small valid files of every format, independently of the library's readers. Tests change and damage them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +10,7 @@
 
 namespace relievo {
 
-// Returns the bytes of a number; little-endian, as on all machines that run these tests.
+// Returns the bytes of a number in little-endian order, as on all machines that run these tests.
 template <typename T>
 std::string raw(T value) {
   std::string bytes(sizeof value, '\0');
@@ -19,14 +18,14 @@ std::string raw(T value) {
   return bytes;
 }
 
-// Returns `text` with the bytes at `at` replaced by those of a number.
+// Returns `text` with the bytes of a number in place of the bytes at `at`.
 template <typename T>
 std::string patched(std::string text, std::size_t at, T value) {
   for (const char byte : raw(value)) text.at(at++) = byte;
   return text;
 }
 
-// A tetrahedron: four corners, four triangles that face outwards.
+// The corners of a tetrahedron and its four triangles, which face outwards.
 inline const std::vector<Vec3> tetrahedron_points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 inline const std::vector<Triangle> tetrahedron_triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
 
@@ -76,8 +75,8 @@ inline std::string gltf_buffer() {
   return buffer;
 }
 
-// Returns the JSON of a glTF file with gltf_buffer(). `uri` is empty, or it is the member "uri" of the buffer
-// and a comma.
+// Returns the JSON of a glTF file whose buffer is gltf_buffer(). `uri` is empty, or it consists of the member
+// "uri" of the buffer and a comma.
 inline std::string gltf_json(const std::string& uri = "") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],)"
          R"("nodes":[{"translation":[10,0,0],"children":[1]},{"mesh":0,"scale":[2,2,2]}],)"
@@ -89,7 +88,7 @@ inline std::string gltf_json(const std::string& uri = "") {
          uri + R"("byteLength":72}]})";
 }
 
-// Returns the sample's JSON without scenes, and with `nodes` instead of its own nodes.
+// Returns the sample's JSON without scenes, and with the nodes `nodes` instead of the sample's nodes.
 inline std::string gltf_with_nodes(std::string_view nodes) {
   std::string json = gltf_json();
   const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
@@ -125,6 +124,7 @@ inline std::string embedded_gltf() {
 }
 
 // Returns a PCD header for three points with normals along x, y and z and the colours red, green and blue.
+// `data` is the encoding.
 inline std::string pcd_header(const std::string& data) {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z rgb normal_x normal_y "
          "normal_z tag\n"
@@ -156,7 +156,7 @@ inline std::string binary_pcd() {
   return file;
 }
 
-// Compresses by LZF, using only literal runs.
+// Compresses bytes by LZF, with literal runs alone.
 inline std::string pack_lzf(const std::string& bytes) {
   std::string out;
   for (std::size_t at = 0; at < bytes.size(); at += 32) {
@@ -207,7 +207,8 @@ inline std::string las(int minor = 2) {
   return file;
 }
 
-// Returns an array as NumPy saves it, from its type, such as "<f4", its bytes and its shape, such as "5, 6".
+// Returns an array as NumPy saves it. `type` is such as "<f4", `data` are the array's bytes, and `shape` is
+// such as "5, 6".
 inline std::string npy(const std::string& type, const std::string& data, const std::string& shape = "5, 6",
                        bool is_by_columns = false, char version = 1) {
   const std::string quoted = type.starts_with('[') ? type : "'" + type + "'";
@@ -223,8 +224,7 @@ struct FileSample {
   std::string name, bytes;
 };
 
-// Returns one or more files of every format except PLY, which has its own encoder. A new format needs a row
-// here.
+// Returns files of every format except PLY, which has its own encoder. A new format needs a row here.
 inline std::vector<FileSample> format_samples() {
   return {{"scan.obj", "# hand\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//2 -1//-1\n"},
           {"scan.xyz", "1 2 3 0 0 1\n4 5 6 0 0.6 0.8\n# end\n7 8 9 1 0 0\n"},

@@ -1,5 +1,5 @@
-// Writes JPEG files that consist of squares of 8 x 8 pixels with one colour each. It uses no library, and all
-// pixels are known without a transform.
+// Writes JPEG files of squares of 8 x 8 pixels with one colour each, without a library. All pixels are known
+// without computing the transform.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@ namespace relievo {
 
 struct JpegSquares {
   int columns = 1, rows = 1;  // numbers of squares
-  int channels = 1;           // 1: grey; 3: luminance, blue and red differences
+  int channels = 1;           // 1: grey; 3: luminance, blue and red difference
   std::vector<std::vector<int>>
-      squares;  // channels of each square, from -128 to 127; grey is the level minus 128
+      squares;  // per square: its channels, from -128 to 127; grey is the level minus 128
   bool is_progressive = false;
   std::string segments = {};  // inserted after the first two bytes
 };
@@ -50,8 +50,8 @@ class Bits {
   int size_ = 0;
 };
 
-// Returns tables with 4-bit codes for the numbers of bits from 0 to 9, and a 1-bit code for the end of a
-// square.
+// Returns the quantisation and Huffman tables. The Huffman tables have 4-bit codes for the numbers of
+// bits from 0 to 9, and a 1-bit code for the end of a square.
 inline std::string tables() {
   const std::string eights(64, '\x08');  // quantisation: a mean of 1 is a coefficient of 8
   std::string dc("\0\0\0\0\x0A", 5), ac("\x10\1", 2);
@@ -61,7 +61,7 @@ inline std::string tables() {
   return segment(0xDB, '\0' + eights) + segment(0xC4, dc) + segment(0xC4, ac);
 }
 
-// Writes the difference from the last square: first the number of its bits, then these bits.
+// Writes the difference from the last square. First comes the number of its bits, then the bits themselves.
 inline void put_difference(Bits& bits, int difference) {
   int count = 0;
   for (int left = difference < 0 ? -difference : difference; left > 0; left /= 2) ++count;

@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// The frequencies of symbols. As in LASzip, they adapt to the symbols written so far.
+// The frequencies of symbols. They adapt to the symbols written so far, as those of LASzip do.
 class LazTestModel {
  public:
   explicit LazTestModel(std::uint32_t symbols) : counts_(symbols, 1), starts_(symbols), cycle_(symbols) {
@@ -89,7 +89,7 @@ class LazTestEncoder {
   void add(std::uint64_t start, std::uint64_t length) {
     base_ += start;
     if (base_ >> 32 != 0)
-      for (std::size_t i = bytes_.size(); ++bytes_[--i] == 0;) continue;  // carries into the preceding bytes
+      for (std::size_t i = bytes_.size(); ++bytes_[--i] == 0;) continue;  // carries into the bytes before
     base_ &= 0xFFFFFFFF;
     for (length_ = length; length_ < 1 << 24; length_ <<= 8, base_ = base_ << 8 & 0xFFFFFFFF)
       bytes_ += static_cast<char>(base_ >> 24);
@@ -98,7 +98,7 @@ class LazTestEncoder {
   std::uint64_t base_ = 0, length_ = 0xFFFFFFFF;
 };
 
-// Encodes differences from predictions. The caller computes the predictions and chooses the context.
+// Encodes differences from predictions. The caller computes the predictions and chooses the contexts.
 class LazTestIntegers {
  public:
   explicit LazTestIntegers(std::size_t contexts) : sizes_(contexts, LazTestModel(33)) {
@@ -134,9 +134,9 @@ struct LazTestClass {
   std::uint32_t flags() const { return is_withheld ? 4 : 0; }
 };
 
-// Returns a chunk of points with one return each. Steps in x and y are predicted by medians of earlier steps.
-// The medians stay 0, because every step must be 0 or more, and every second step must be 0. Each z is
-// predicted by the previous z. Point i has the class i; there may be fewer classes than points.
+// Returns a chunk of points with one return each. LASzip predicts steps in x and y by medians of earlier
+// steps. Here the medians stay 0, because every step must be 0 or more, and every second step must be 0. Each
+// z is predicted by the previous z. Point i has the class classes[i]; there may be fewer classes than points.
 inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered,
                              std::vector<LazTestClass> classes = {}) {
   classes.resize(points.size());
@@ -178,7 +178,7 @@ inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_la
          size(flag_bytes.size()) + std::string(20, '\0') + xy + z_bytes + class_bytes + flag_bytes;
 }
 
-// Returns points as laz_chunk() needs them: every second step in x and y is 0.
+// Returns points such as laz_chunk() needs: every second step in x and y is 0.
 inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<LazTestPoint> points = {{-1000, 2000, 500}};
@@ -195,7 +195,7 @@ inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
 }
 
 // Returns a LAZ file with chunks of any sizes. The point format is 0, or 6 if the chunks are layered.
-// Coordinates are integers. Point i of each chunk has class i.
+// Coordinates are integers. Point i of each chunk has the class classes[i].
 inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered,
                        const std::vector<LazTestClass>& classes = {}) {
   std::string file(375, '\0'), data;

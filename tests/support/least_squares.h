@@ -1,4 +1,4 @@
-// Solves equation (9), as our method uses it, with Eigen, independently of HeightSystem.
+// Solves equation (9), in the form that our method uses, by Eigen and independently of HeightSystem.
 #pragma once
 
 #include <Eigen/Sparse>
@@ -13,16 +13,15 @@
 
 namespace relievo::test {
 
-// The points and edges of equation (9), and the weights of the points. If there are no weights, all points
-// have weight 1.
+// The points and edges of equation (9), and the weights of the points. If `weights` is empty, all weights are 1.
 struct EquationNine {
   std::vector<Vec2> points;
   const Triangulation& mesh;
   const Boundary& boundary;
   std::vector<float> weights = {};
 
-  // Returns the weight of each edge (p, q) with p < q: half the sum of the cotangents of the opposite angles,
-  // clamped to 1e-4 to 1e3, times the mean of the weights of its ends.
+  // Returns the weight of each edge (p, q) with p < q. It is half the sum of the cotangents of the opposite
+  // angles, clamped to the range from 1e-4 to 1e3, times the mean of the weights of both ends.
   std::map<std::pair<Index, Index>, double> edges() const {
     std::map<std::pair<Index, Index>, double> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)

@@ -9,8 +9,8 @@
 
 namespace relievo::test {
 
-// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter, the surface is closed or
-// ends in a point. `u_count` and `v_count` are the numbers of edges along the parameters.
+// Returns the mesh of a surface at(u, v) over [0, 1] x [0, 1]. Along each parameter, the surface must be
+// closed or end in a point. `u_count` and `v_count` are the numbers of edges along the parameters.
 inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u_count, int v_count) {
   Mesh mesh;
   for (int v = 0; v <= v_count; ++v)
@@ -25,7 +25,7 @@ inline Mesh parametric_mesh(const std::function<Vec3(double, double)>& at, int u
   return mesh;
 }
 
-// Returns a sphere around the origin with its poles on the y axis.
+// Returns the mesh of a sphere around the origin, with the poles on the y axis.
 inline Mesh sphere_mesh(double radius, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -47,8 +47,8 @@ inline Mesh torus_mesh(double R, double r, int sides) {
       sides, sides / 2);
 }
 
-// Returns a button about the z axis: a flat face of radius `face` at height z + edge, and around it a quarter
-// circle down to height z.
+// Returns the mesh of a button about the z axis. It has a flat face of radius `face` at height z + edge.
+// Around the face, a quarter circle falls to height z.
 inline Mesh button_mesh(double face, double edge, double z, int sides) {
   return parametric_mesh(
       [&](double u, double v) -> Vec3 {
@@ -66,11 +66,11 @@ inline Mesh joined(Mesh mesh, const Mesh& other) {
   return mesh;
 }
 
-// Returns a flat gear in the plane z = 0. Its teeth extend from the radius `root` to the radius `tip`, and
-// their flanks are radial.
+// Returns the mesh of a flat gear in the plane z = 0. Its teeth extend from the radius `root` to the
+// radius `tip`, and their flanks are radial.
 inline Mesh gear_mesh(double root, double tip, int teeth) {
   Mesh mesh;
-  const int steps = 40;  // number of steps of a tooth's arc
+  const int steps = 40;  // number of steps along the arc of a tooth
   const auto at = [&](double radius, double angle) {
     mesh.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
     return static_cast<Index>(mesh.points.size() - 1);

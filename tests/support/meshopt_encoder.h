@@ -26,11 +26,11 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
 }
 
-// The number of bits per difference, for each of the four possible codes of a group.
+// The numbers of bits per difference that the four possible codes of a group stand for.
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// A group of 16 differences, packed with the width that takes the fewest bytes.
+// A group of 16 differences, packed with the number of bits that takes the fewest bytes.
 struct Group {
   int code = -1;
   std::string bytes;
@@ -59,7 +59,8 @@ inline Group packed_group(const std::string& stored, const Widths& widths) {
   return best;
 }
 
-// Returns the differences of one byte of each element, packed in groups. The last group may be shorter.
+// Returns the differences of one byte column, packed in groups. The column has one byte of each
+// element. The last group may be shorter.
 inline std::string packed_column(const std::string& differences, const Widths& widths) {
   const std::size_t groups = (differences.size() + 15) / 16;
   std::string codes((groups + 3) / 4, '\0'), bytes;
@@ -74,7 +75,7 @@ inline std::string packed_column(const std::string& differences, const Widths& w
 }
 
 // Returns the differences of byte number `byte` of each element from the same byte of the previous element.
-// Covers the elements from `first` up to but not including `end`.
+// The elements are those from `first` up to but not including `end`.
 inline std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
                                   std::size_t first, std::size_t end) {
   std::string stored;

@@ -1,6 +1,6 @@
 // Computes the similarity of two pictures: the structural similarity of their luminance, by Wang, Bovik,
-// Sheikh and Simoncelli (2004), with its usual constants. It is the mean over the windows in which at least
-// one picture has details.
+// Sheikh and Simoncelli (2004), with its usual constants. It is the mean over those windows in which at
+// least one of the pictures has details.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ inline Image<double> luminance(const Image8& picture) {
   return grey;
 }
 
-// Returns Gaussian means of the image a or, if b is given, of the products of the values of a and b.
+// Returns Gaussian means of the image a. If b is given, returns Gaussian means of the products of
+// the values of a and b.
 inline Image<double> means(const Image<double>& a, const Image<double>* b) {
   std::array<double, 2 * reach + 1> kernel;
   double sum = 0;
@@ -61,7 +62,7 @@ inline double structural_similarity(const Image8& one, const Image8& other) {
   for (int y = 2 * reach; y < a.height - 2 * reach; ++y)
     for (int x = 2 * reach; x < a.width - 2 * reach; ++x) {
       const double ua = ma.at(x, y), ub = mb.at(x, y), va = aa.at(x, y) - ua * ua, vb = bb.at(x, y) - ub * ub;
-      constexpr double level = .25;  // a window with a smaller variance has no details
+      constexpr double level = .25;  // below this variance, a window has no details
       if (va < level && vb < level) continue;
       sum += (2 * ua * ub + c1) * (2 * (ab.at(x, y) - ua * ub) + c2) /
              ((ua * ua + ub * ub + c1) * (va + vb + c2));

@@ -14,7 +14,7 @@ inline double uniform(std::mt19937_64& random) {
 }
 
 // Returns uniformly distributed points in the unit square. For the seeds and sizes that tests use, no four of
-// them are cocircular and no three are collinear.
+// the points are cocircular and no three are collinear.
 inline std::vector<Vec2> random_points(std::size_t n, unsigned seed = 1) {
   std::mt19937_64 random(seed);
   std::vector<Vec2> points(n);
@@ -34,8 +34,8 @@ inline std::vector<Vec2> circle_points(int n) {
   return points;
 }
 
-// Returns points of which half are uniformly distributed. The others are scaled towards the origin by up to
-// 15 powers of ten.
+// Returns points of which half are uniformly distributed. The other half is scaled towards the origin by up
+// to 15 powers of ten.
 inline std::vector<Vec2> clustered_points(std::size_t n) {
   std::vector<Vec2> points = random_points(n, 2);
   for (std::size_t i = 0; i < n / 2; ++i) points[i] *= std::pow(10.0, -static_cast<double>(i % 16));

@@ -17,8 +17,8 @@ struct PlanarSystem {
 };
 
 // Returns the Laplacian of a grid of unit squares, each divided by one of its diagonals. Points are displaced
-// at random, and edges have random weights. At the edge of the grid, 1 is added to the diagonal, which makes
-// the matrix definite.
+// at random, and edges have random weights. At the edge of the grid, 1 is added to the diagonal of the
+// matrix, which makes the matrix definite.
 inline PlanarSystem jittered_grid(int width, int height, std::uint64_t seed = 7) {
   Random random(seed);
   PlanarSystem system;

@@ -1,4 +1,4 @@
-// Makes fronts of plates with shapes that are known in closed form, and measures their outlines.
+// Makes fronts of plates whose shapes have closed forms, and measures outlines of plates.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -14,7 +14,7 @@
 namespace relievo::test {
 
 // A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each divided into two triangles.
-// grid_front() gives its inner points the heights z(x, y), and its edge the height 0.
+// grid_front() gives the inner points the heights z(x, y), and the points at the edge the height 0.
 struct Grid {
   double width = 1, height = 1;
   int cells_x = 1, cells_y = 1;
@@ -52,7 +52,7 @@ inline HeightFieldMesh flat_front(const Grid& grid) {
 }
 
 // Divides a convex polygon with counter-clockwise corners into a fan of triangles at the height `ground_mm`.
-// pyramid_front() connects the sides to an apex above the centre instead.
+// pyramid_front() instead connects the polygon's sides to an apex above its centre.
 inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
   HeightFieldMesh front;
   front.ground_mm = ground_mm;
@@ -83,13 +83,12 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate with that front. If there is none, the test fails.
+// Returns a plate with the given front. If there is none, the test fails.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   return value_of(make_plate(front, options));
 }
 
-// Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, all corners are convex in
-// spite of rounding.
+// Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, rounding leaves all corners convex.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < n; ++i) {
@@ -99,9 +98,8 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
   return polygon;
 }
 
-// Returns the Delaunay triangulation of a square grid of points that is rotated by an angle. Its heights are
-// z(x, y) inside and 0 on the sides. Because of rounding the sides are not exactly straight, as in meshes
-// that are sampled on a grid.
+// Returns the Delaunay triangulation of a square grid of points, rotated by an angle. The heights are z(x, y) inside
+// and 0 on the sides. Because of rounding, the sides are not exactly straight, as in meshes that are sampled on a grid.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
   std::vector<Vec3> points;
@@ -123,7 +121,8 @@ inline double polygon_area(const std::vector<Vec2>& polygon) {
   return twice / 2;
 }
 
-// Returns the distance of a point inside a convex polygon from the nearest side; negative outside.
+// Returns the distance of a point inside a convex polygon from the nearest side. Outside the
+// polygon, the result is negative.
 inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
   double depth = 1e9;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -13,13 +13,13 @@
 namespace relievo {
 
 struct PlyColumn {
-  std::string type = "float";  // any name of a type
+  std::string type = "float";  // may be any name of a type
   std::string name;
-  std::string length_type = {};  // type of a list's length; empty if the column is no list
+  std::string length_type = {};  // the type of a list's length; empty if this is no list
 };
 
-// An element of a PLY file. Each row has one number per column; for a list, it has the length followed by the
-// values.
+// An element of a PLY file. Each row has one number per column. For a list, it has the list's length and then
+// its values.
 struct PlyTable {
   std::string name;
   std::vector<PlyColumn> columns;
@@ -31,7 +31,7 @@ inline const std::vector<PlyColumn> ply_xyz = {{"float", "x"}, {"float", "y"}, {
 inline PlyTable ply_vertices(const std::vector<std::vector<double>>& rows) {
   return {"vertex", ply_xyz, rows};
 }
-// Returns a table of faces. Each row is the number of corners, followed by the corners.
+// Returns a table of faces. Each row is the number of corners, followed by the corners themselves.
 inline PlyTable ply_faces(const std::vector<std::vector<double>>& rows) {
   return {"face", {{"int", "vertex_indices", "uchar"}}, rows};
 }

@@ -1,4 +1,4 @@
-// Reads solids from STL, PLY and OBJ files without the library, to check the files that the library writes.
+// Reads solids from STL, PLY and OBJ files without the library's readers, to check files that the library writes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace relievo::test {
 
-// A solid as a list of triangles, each with its own corners.
+// A solid as a list of triangles; each triangle has its own corners.
 struct ReadSolid {
   std::vector<std::array<Vec3f, 3>> triangles;
 
@@ -28,7 +28,7 @@ struct ReadSolid {
     return box;
   }
 
-  // Returns the enclosed volume by the divergence theorem. It is positive if the triangles face outwards.
+  // Returns the enclosed volume, by the divergence theorem. The volume is positive if the triangles face outwards.
   double volume() const {
     double sixfold = 0;
     for (const auto& [a, b, c] : triangles)
@@ -36,7 +36,7 @@ struct ReadSolid {
     return sixfold / 6;
   }
 
-  // Returns whether each edge occurs equally often in both directions.
+  // Returns whether each edge is used equally often in both directions.
   bool is_closed() const {
     using Corner = std::array<float, 3>;
     const auto corner = [](const Vec3f& p) { return Corner{p.x(), p.y(), p.z()}; };
@@ -52,7 +52,7 @@ struct ReadSolid {
   }
 };
 
-// Returns the solid after merging corners with equal coordinates into one point.
+// Returns the solid after merging equal corners into one point.
 inline Solid solid_of(const ReadSolid& read) {
   Solid solid;
   std::map<std::array<float, 3>, Index> numbers;
@@ -90,7 +90,7 @@ inline ReadSolid solid_in_stl(std::string_view file) {
   return solid;
 }
 
-// Returns the number after `label` in a header; 0 if there is none.
+// Returns the number after `label` in the text; 0 if there is none.
 inline std::size_t number_after(std::string_view text, std::string_view label) {
   const std::size_t at = text.find(label);
   return at == text.npos ? 0 : std::stoul(std::string(text.substr(at + label.size(), 20)));

@@ -1,4 +1,4 @@
-// Reads scans from texts, and checks that the results are as the readers promise.
+// Reads scans from texts, and checks that the results keep the promises of the readers.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace relievo {
 
-// Reads from an allocation with exactly the size of the text, so that the address sanitizer detects any read
-// after its end.
+// Reads the text from an allocation of exactly the text's size, so that the address sanitizer detects every
+// read after the end.
 inline Result<CloudFile> read(std::string_view text, std::string_view name) {
   std::vector<std::byte> bytes(text.size());
   if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
@@ -54,7 +54,7 @@ inline std::string replaced(std::string text, std::string_view what, std::string
   return text;
 }
 
-// Returns the first promise of read_cloud() that the answer breaks; an empty text if there is none.
+// Returns the first promise of read_cloud() that its answer breaks; an empty text if it breaks none.
 inline std::string check_answer(const Result<CloudFile>& answer, std::string_view name) {
   if (!answer) {
     const Error& error = answer.error();

@@ -39,7 +39,7 @@ struct Cancelled : Progress {
   Cancelled() { cancel(); }
 };
 
-// Expect an error whose message contains `part`. The second function also expects the kind of the error.
+// The first function expects an error whose message contains `part`. The second also expects the error's kind.
 template <typename T>
 void expect_error(const Result<T>& result, std::string_view part) {
   const std::string message = message_of(result);

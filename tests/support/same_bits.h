@@ -1,4 +1,4 @@
-// Expects that results have the same bits however they are computed.
+// Expects that results have the same bits with any number of threads, and with or without AVX2.
 #pragma once
 
 #include <gtest/gtest.h>

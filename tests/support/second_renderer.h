@@ -1,5 +1,5 @@
-// Draws the triangles of a file without the library, to check the library's pictures. Returns which pixels
-// are covered, and the angle between surface and lamp there.
+// Draws the triangles of a file without the library, to check the library's pictures. It finds out which
+// pixels are covered, and the angle between surface and lamp in each of them.
 #pragma once
 
 #include <algorithm>
@@ -12,9 +12,8 @@
 
 namespace relievo::test {
 
-// Parallel rays along the viewing direction. The rows of `turn` are the axes of the picture in the
-// coordinates of the file: to the right, upwards and towards the viewer. `middle` is the point at the centre
-// of the picture.
+// A camera with parallel rays. The rows of `turn` are the axes of the picture in the coordinates of the
+// file: to the right, upwards and towards the viewer. `middle` is the point at the centre of the picture.
 struct RayCamera {
   Mat3 turn = Mat3::Identity();
   Vec3 middle = Vec3::Zero();
@@ -28,8 +27,8 @@ struct RayCamera {
   }
 };
 
-// Returns the axes after two rotations. The one about the vertical axis brings the right side nearer, the one
-// about the horizontal axis the lower side.
+// Returns the picture's axes after two rotations. The rotation about the vertical axis brings the right side
+// nearer, the rotation about the horizontal axis the lower side.
 inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, b = pitch_deg * std::numbers::pi / 180;
   Mat3 yaw, pitch;
@@ -46,8 +45,7 @@ struct RayTriangle {
   Vec2 lowest() const { return a.head<2>() + u.cwiseMin(v).cwiseMin(0).head<2>(); }
   Vec2 highest() const { return a.head<2>() + u.cwiseMax(v).cwiseMax(0).head<2>(); }
 
-  // Returns the third coordinate of pixel() on the triangle at a position; minus infinity outside the
-  // triangle.
+  // Returns the third coordinate of pixel() at a position on the triangle; minus infinity outside the triangle.
   double depth_at(double x, double y) const {
     const double px = x - a.x(), py = y - a.y();
     const double s = (px * v.y() - py * v.x()) / area(), t = (u.x() * py - u.y() * px) / area();
@@ -56,8 +54,8 @@ struct RayTriangle {
   }
 };
 
-// Returns the cosine of the angle between the lamp's direction and the surface normal at the centre of each
-// pixel, but at least 0; NaN where there is no surface. Tests all triangles and takes the nearest.
+// Returns, at the centre of each pixel, the cosine of the angle between the lamp's direction and the surface normal,
+// but at least 0. The cosine is NaN where there is no surface. All triangles are tested, and the nearest counts.
 inline Image<double> lamp_cosines(const ReadSolid& solid, const RayCamera& camera, const Vec3& to_lamp) {
   constexpr double nowhere = std::numeric_limits<double>::infinity();
   Image<double> nearest = filled_image(camera.width, camera.height, -nowhere), cosines = nearest;

@@ -19,16 +19,16 @@ namespace relievo::test {
 
 using Corners = std::array<Vec3, 3>;
 
-// Returns whether three points lie on a line along an axis.
+// Returns whether three points lie on a line that is parallel to an axis.
 inline bool on_axis_line(const Vec3& a, const Vec3& b, const Vec3& c) {
   int common = 0;
   for (int k = 0; k < 3; ++k) common += a[k] == b[k] && a[k] == c[k];
   return common >= 2;
 }
 
-// Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is
-// counter-clockwise as seen from d. Most determinants that are 0 need no exact arithmetic: two points are the same,
-// three lie on a line along an axis, or all lie in a plane across one.
+// Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is counter-clockwise as
+// seen from d. Most determinants that are 0 are found without exact arithmetic: two points are equal, three points lie
+// on a line parallel to an axis, or all points lie in a plane perpendicular to one.
 inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   if (d == a || d == b || d == c || a == b || a == c || b == c) return 0;
   if (on_axis_line(a, b, c) || on_axis_line(a, b, d) || on_axis_line(a, c, d) || on_axis_line(b, c, d))
@@ -40,7 +40,7 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   const auto product = [&](int i, int j) { return std::abs(v[i] * w[j]) + std::abs(v[j] * w[i]); };
   const double products =
       std::abs(u[0]) * product(1, 2) + std::abs(u[1]) * product(2, 0) + std::abs(u[2]) * product(0, 1);
-  // The rounding errors of `value` are below 8e-16 of the sum of the products' magnitudes (Shewchuk, 1997).
+  // The rounding error of `value` is below 8e-16 of the sum of the products' magnitudes (Shewchuk, 1997).
   if (std::abs(value) > 1e-15 * products) return value > 0 ? 1 : -1;
   const auto row = [&](const Vec3& p) {
     std::array<BigInteger, 3> exact;
@@ -54,8 +54,8 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 }
 
 inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
-  // With a point above the plane of projection, the three-dimensional determinant equals the two-dimensional
-  // one.
+  // If the fourth point is above the plane of projection, the three-dimensional determinant equals the
+  // two-dimensional one.
   Vec3 p = a, q = b, r = c, above = a;
   p[drop] = q[drop] = r[drop] = 0;
   above[drop] = 1;
@@ -79,7 +79,7 @@ inline bool overlap_in_plane(const Corners& s, const Corners& t) {
   return !is_apart(s, t) && !is_apart(t, s);
 }
 
-// Returns whether the segment pq meets the triangle or its boundary, and does not lie in its plane.
+// Returns whether the segment pq meets the triangle or its boundary, without lying in the triangle's plane.
 inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   if (orient3d(t[0], t[1], t[2], p) == orient3d(t[0], t[1], t[2], q)) return false;
   int least = 1, most = -1;
@@ -90,8 +90,8 @@ inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
   return least >= 0 || most <= 0;
 }
 
-// Returns whether an edge of s meets t. Edges that end in a common corner do not count: if such an edge
-// crosses t, the edge opposite the corner, in s or in t, meets the other triangle, too.
+// Returns whether an edge of s meets t. Edges that end in a common corner are not tested: if such an
+// edge crosses t, the edge opposite the common corner, in s or in t, meets the other triangle, too.
 inline bool edge_meets(const Corners& s, const Corners& t) {
   const auto is_common = [&](const Vec3& p) { return std::ranges::find(t, p) != t.end(); };
   for (std::size_t i = 0; i < 3; ++i) {
@@ -124,8 +124,8 @@ struct BoundedTriangle {
   }
 };
 
-// A binary tree of bounding boxes over triangles. Each box is divided along its longest side, which reorders
-// the triangles.
+// A binary tree of bounding boxes of triangles. Each box is divided along its longest side. Building the
+// tree changes the order of the triangles.
 class BoxTree {
  public:
   explicit BoxTree(std::span<BoundedTriangle> triangles) : triangles_(triangles) {
@@ -140,8 +140,7 @@ class BoxTree {
   }
 
  private:
-  // The box of a range of two or more triangles is stored at begin + end. No other such range has the same
-  // sum.
+  // The box of a range of at least two triangles is stored at index begin + end. No two such ranges have the same sum.
   static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
 
   void build(std::size_t begin, std::size_t end) {
@@ -176,15 +175,14 @@ class BoxTree {
   std::vector<Box> boxes_;
 };
 
-// Returns the faults of a solid as stored in a file; an empty text if there are none. These are the number of
-// triangles without area, and the number of pairs of triangles that share more than a corner or an edge, with
-// one pair as an example.
+// Returns the faults of a solid as stored in a file; an empty text if there are none. The text states how
+// many triangles have no area, and how many pairs of triangles share more than a corner or an edge. One of
+// these pairs is named.
 inline std::string self_intersections(const Solid& solid) {
   std::vector<BoundedTriangle> triangles;
   std::size_t flat = 0, pairs = 0;
   std::string example;
-  // The floats are first stored in an array, because g++ 12 drops the rounding of double(float(x)) when it
-  // vectorises.
+  // The floats are stored in an array first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
   std::vector<Vec3f> stored;
   for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
   for (std::size_t i = 0; i < solid.triangles.size(); ++i) {

@@ -28,7 +28,7 @@ inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
   cloud.normals.push_back(normal.normalized().cast<float>());
 }
 
-// Returns uniformly distributed points on a sphere of that radius.
+// Returns uniformly distributed points on a sphere of the given radius.
 inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
   Random random(seed);
   Cloud cloud;
@@ -136,10 +136,9 @@ inline Cloud joined(Cloud a, const Cloud& b) {
   return a;
 }
 
-// Returns a square that is tilted by 25 degrees about the y axis, in front of a level sheet. Seen from the
-// front it is 2 * flap_half_width wide. The relief's slopes do not contain the depth between flap and sheet.
-// So the centre of the flap gets the height of the sheet, and the lower half of the flap would be below the
-// sheet.
+// Returns a square in front of a level sheet, tilted by 25 degrees about the y axis. Seen from the front it is 2 *
+// flap_half_width wide. The relief's slopes do not contain the depth between square and sheet. So the centre of the
+// square gets the height of the sheet, and the lower half of the square would be below the sheet.
 inline constexpr double flap_half_width = .5;
 inline Cloud flap_before_a_sheet(std::size_t points = 8000, double distance = 1) {
   const double half = flap_half_width / std::cos(25 * std::numbers::pi / 180);
@@ -160,7 +159,7 @@ inline Cloud cube(std::size_t n, std::uint64_t seed = 5) {
   return cloud;
 }
 
-// Displaces every point along its normal and tilts every normal, by Gaussian noise.
+// Displaces every point along its normal, and tilts every normal. Both changes are Gaussian noise.
 inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t seed = 6) {
   Random random(seed);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -171,8 +170,8 @@ inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t
   return cloud;
 }
 
-// Returns uniformly distributed points on a button: a flat disc of that radius that faces +z, and around it a
-// quarter of a torus of tube radius `edge`. The lowest points are at `z`.
+// Returns uniformly distributed points on a button: a flat disc of radius `radius` that faces +z, and a
+// quarter of a torus with tube radius `edge` around it. The lowest points are at `z`.
 inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std::uint64_t seed = 12) {
   Random random(seed);
   Cloud cloud;

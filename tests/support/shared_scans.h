@@ -1,5 +1,5 @@
 // Finds scans that are not part of the project, because their licences do not allow it. If a scan is missing,
-// the test that needs it is skipped and says so.
+// the test that needs it is skipped, with a message.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace relievo::test {
 
-// Returns the folder of scans: the environment variable RELIEVO_SHARED_DATA or, if that is not set, the CMake
-// variable with the same name.
+// Returns the folder of scans. It is the environment variable RELIEVO_SHARED_DATA or, if this is not set, the
+// CMake variable of this name.
 inline std::filesystem::path shared_data() {
   if (const char* folder = std::getenv("RELIEVO_SHARED_DATA")) return folder;
   return RELIEVO_SHARED_DATA;
@@ -32,7 +32,7 @@ inline std::vector<std::byte> shared_bytes(const std::filesystem::path& name) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Returns the message of a test that is skipped because `name` is missing.
+// Returns the message of a test that is skipped because the scan `name` is missing.
 inline std::string missing_scan(const std::string& name) {
   return "not tested: " + (shared_data() / name).string() +
          " is missing. Set the environment variable RELIEVO_SHARED_DATA, or configure with "

@@ -17,7 +17,7 @@ inline Vec3 place_of(const Surface& surface, std::size_t i) {
   return surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
 }
 
-// Returns heights with waves in which each brush changes something.
+// Returns heights with waves. On these heights, every brush has an effect.
 inline std::vector<double> waves(const Surface& surface) {
   std::vector<double> z;
   for (const Vec3& p : surface.points) z.push_back(1 + .1 * std::sin(40 * p.x()) * std::sin(30 * p.y()));
@@ -28,8 +28,8 @@ inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
   return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, {mode}));
 }
 
-// Returns bumps behind a ring that hides parts of them. There are curvature of both signs, a depth jump, and
-// an inner hole. Bumps and ring have `n` points each.
+// Returns bumps behind a ring that hides parts of them. The surface has curvature of both signs, a depth
+// jump, and an inner hole. Bumps and ring have `n` points each.
 inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
   const Cloud bumps = height_field(
       n, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },

@@ -22,7 +22,7 @@ struct TiffTags {
   std::string no_data = {};
 };
 
-// Returns a little-endian TIFF with one strip of these bytes.
+// Returns a little-endian TIFF with one strip that consists of the bytes `pixels`.
 inline std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
   const bool has_palette = tags.colours == 3;  // a palette has 256 colours
   const std::string palette(has_palette ? 2 * 3 * 256 : 0, '\7');
@@ -37,7 +37,7 @@ inline std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
                                    {278, 4, 1, height},
                                    {279, 4, 1, static_cast<std::uint32_t>(pixels.size())},
                                    {339, 3, 1, tags.kind}};
-  if (tags.channels == 2) {  // two equal numbers of 16 bits fit into the field
+  if (tags.channels == 2) {  // there, two equal 16-bit numbers fit into the field
     fields[2].count = fields[9].count = 2;
     fields[2].value *= 65537, fields[9].value *= 65537;
     fields.insert(fields.end() - 1, {338, 3, 1, 2});
@@ -54,7 +54,7 @@ inline std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
   return file + raw(std::uint32_t{0}) + text + pixels;
 }
 
-// Returns the bytes of all pixels. number(i) returns the value of pixel i.
+// Returns the bytes of all pixels. number(i) is the value of pixel i.
 template <typename MakeNumber>
 std::string pixels_of(MakeNumber&& number) {
   std::string pixels;

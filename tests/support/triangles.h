@@ -17,7 +17,7 @@ double twice_area(const Point& a, const Point& b, const Point& c) {
   return cross(Vec2((b - a).template head<2>()), Vec2((c - a).template head<2>()));
 }
 
-// Returns the signed area of all triangles in the plane.
+// Returns the sum of the signed areas of triangles in the plane.
 template <typename Point>
 double area_of(const std::vector<Point>& points, std::span<const Triangle> triangles) {
   double twice = 0;
@@ -25,7 +25,7 @@ double area_of(const std::vector<Point>& points, std::span<const Triangle> trian
   return twice / 2;
 }
 
-// Returns the signed area of the triangles inside the boundary.
+// Returns the sum of the signed areas of the triangles inside the boundary.
 template <typename Point>
 double inside_area(const std::vector<Point>& points, const Triangulation& mesh, const Boundary& boundary) {
   std::vector<Triangle> inside;
@@ -40,7 +40,7 @@ void expect_counter_clockwise(const std::vector<Point>& points, std::span<const 
     EXPECT_GT(twice_area(points[a], points[b], points[c]), 0) << a << ' ' << b << ' ' << c;
 }
 
-// Returns the height of the first triangle above or below a point; NaN where there is none.
+// Returns the height of the first triangle that is above or below a point; NaN if there is none.
 inline double height_at(const std::vector<Vec3>& points, std::span<const Triangle> triangles,
                         const Vec2& place) {
   for (const auto& [a, b, c] : triangles) {

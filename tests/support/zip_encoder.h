@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// Returns a ZIP archive of uncompressed files, given as names and contents.
+// Returns a ZIP archive of uncompressed files. Each file is given as its name and its content.
 inline std::string archive_of(const std::vector<std::pair<std::string, std::string>>& files) {
   std::string all, directory;
   for (const auto& [name, content] : files) {

@@ -16,7 +16,8 @@ bool Approximation::start() {
   return true;
 }
 
-// Walks from triangle to triangle. Successive points of a scan are close to each other, so walks are short.
+// Walks from triangle to triangle, starting at `start`. The points of a scan that follow each other are
+// close together, so walks are short.
 Index Approximation::find(const Vec2& place, Index start) const {
   Index t = start == no_index || mesh_->is_outside(start) ? mesh_->newest() : start, from = no_index;
   for (Index steps = 0; steps <= mesh_->size(); ++steps) {
@@ -51,7 +52,7 @@ double Approximation::height(Index t, const Vec2& place) const {
          (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
 }
 
-// Returns the neighbour across an edge that separates t from `place`; t itself if t contains `place`.
+// Returns the neighbour of t across an edge that separates t from `place`; t itself if t contains `place`.
 Index Approximation::towards(const Vec2& place, Index t, Index from) const {
   const Triangle corners = mesh_->corners(t);
   for (Index i = 0; i < 3; ++i) {

@@ -1,5 +1,5 @@
-// Defines a height field over the Delaunay triangulation of points that are added one at a time. It locates
-// points and walks along segments. Tested by tests/plate/simplify_test.cpp.
+// Defines an approximation of a front: a height field over the Delaunay triangulation of points that are
+// added one at a time. It locates points and walks along segments. Tested by tests/plate/simplify_test.cpp.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace relievo {
 class Approximation {
  public:
   Approximation() = default;
-  Approximation(const Approximation&) = delete;  // the triangulation refers to the points
+  Approximation(const Approximation&) = delete;  // the triangulation has references to the points
   Approximation& operator=(const Approximation&) = delete;
 
-  // Adds a point. `triangle` is a triangle near it in the plane. Calls changed(triangle) for all triangles
-  // that are new or have changed corners.
+  // Adds a point. `triangle` is a triangle near the point in the plane. Calls changed(triangle) for all
+  // triangles that are new or have changed corners.
   template <typename Changed>
   void add(const Vec3& point, Index triangle, Changed&& changed) {
     points_.push_back(point);
@@ -36,18 +36,17 @@ class Approximation {
   // triangle `start`.
   Index find(const Vec2& place, Index start) const;
 
-  // Returns the other triangle of the edge that contains `place`; no_index if `place` is inside t or on the
-  // hull.
+  // Returns the neighbour of t across the edge that contains `place`; no_index if `place` is inside t or on the hull.
   Index across(const Vec2& place, Index t) const;
 
   double slope_sq(Index t) const;
 
-  // Returns the height of a triangle's plane at `place`.
+  // Returns the height of the plane of triangle t at `place`.
   double height(Index t, const Vec2& place) const;
 
-  // Calls f wherever the segment from a to b crosses an edge; a must lie in triangle t. Arguments: the
-  // triangles before and after the crossing, its position as a share of the segment, and the approximation's
-  // height there.
+  // Calls f at each crossing of the segment from a to b with an edge; a must lie in triangle t. The
+  // arguments of f are: the triangles before and after the crossing; its position as a share of the
+  // segment; the height of the approximation there.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;

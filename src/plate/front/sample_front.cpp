@@ -22,7 +22,7 @@
 namespace relievo {
 namespace {
 
-// A grid of points over the front, and the triangle that contains each point.
+// A grid over the front. It knows the triangle that contains the centre of each cell.
 struct SampleGrid {
   double step = 0;
   Vec2 corner;  // upper left corner of the grid
@@ -33,8 +33,8 @@ struct SampleGrid {
   Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
 };
 
-// Returns a grid whose squares have sides of `step`, or more for a large front. Its width and height are
-// multiples of `block`.
+// Returns a grid whose cells have sides of `step`, or more for a large front. Its width and height, in
+// cells, are multiples of `block`.
 SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   const Box box = Box::of(front.points);
   SampleGrid grid;
@@ -60,16 +60,15 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   return grid;
 }
 
-constexpr int band_rings = 3;  // rings around creases; they form the band, whose points are kept
+constexpr int band_rings = 3;  // rings of triangles around creases; they form the band, whose points are kept
 constexpr int most_divisions = 16;
-// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band; half of it
-// applies to samples of quartered squares. `apart_in_band` is the distance between points of the band that
-// are not on creases.
+// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band. Samples of quartered
+// squares need only half of it. `apart_in_band` is the distance between points of the band that are not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
-// Marks the band: triangles that are not smooth, and band_rings rings of smooth triangles around them and
-// along the hull.
+// Marks the triangles of the band. These are all triangles that are not smooth, and band_rings rings of
+// smooth triangles around them and along the hull.
 std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
                                          std::span<const std::uint8_t> is_smooth) {
   std::vector<std::uint8_t> is_near(front.points.size(), 0), is_band(front.triangles.size());
@@ -124,7 +123,8 @@ class Sampler {
                          corner_weights(grid_.input, t, pixel.x(), pixel.y()));
   }
 
-  // Adds the points to keep: points of the band and of the hull, and the highest and the lowest point.
+  // Adds the points of the given front that are kept: points of the band near creases, points of
+  // the hull, and the highest and the lowest point.
   void add_old_points() {
     std::vector<std::uint8_t> is_kept(front_.points.size(), 0), is_fixed = is_kept;
     for (std::size_t t = 0; t < is_band_.size(); ++t)
@@ -148,8 +148,8 @@ class Sampler {
     }
   }
 
-  // Divides each edge of the band's smooth triangles into the same number of parts, so that the median part
-  // is about as long as the resolution. New points on creases stay on the creases.
+  // Divides each edge of the smooth triangles in the band near creases into the same number of parts, so
+  // that the median part is about as long as the resolution. New points on creases stay on the creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -179,7 +179,7 @@ class Sampler {
       }
   }
 
-  // Divides the edge on which these triangle sides lie, if at least one of its triangles is smooth.
+  // Divides the edge of these triangle sides, if at least one of its triangles is smooth.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;
@@ -196,9 +196,9 @@ class Sampler {
     }
   }
 
-  // Subsamples the band, because points of a scan may nearly coincide in the view. Fixed points are kept:
-  // points on creases and on the hull, the lowest and the highest point. Another point is kept only if it is
-  // not too close to a fixed point or to a point already kept.
+  // Subsamples the band near creases, because points of a scan may nearly coincide in the view. Fixed points
+  // are kept: points on creases and on the hull, the lowest and the highest point. Another point is kept
+  // only if it is not too close to a fixed point or to a point already kept.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
@@ -217,7 +217,7 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a point near the middle of each square outside the band.
+  // Adds a sample near the middle of each square outside the band, which lies near creases and the hull.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));
@@ -235,7 +235,7 @@ class Sampler {
     std::optional<SampleGrid> quarters;
     if (std::ranges::any_of(squares, &SampleSquare::is_quartered))
       quarters = sample_grid(front_, grid_.step / 2, 2 * largest_square);
-    // False for very large fronts, whose grids are coarser than asked for.
+    // This is false for very large fronts, because sample_grid() makes coarser grids for them.
     const bool has_quarters = quarters && quarters->step == grid_.step / 2;
     for (const SampleSquare& square : squares) {
       if (square.is_quartered && has_quarters)
@@ -252,8 +252,8 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the centres of a square's quarters, except those close to a point of the band. `quarters` is a grid
-  // with half the step.
+  // Adds the centres of a square's quarters as samples, except those close to a point of the band
+  // near creases. `quarters` is a grid with half the step.
   void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
       const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;
@@ -264,7 +264,7 @@ class Sampler {
     }
   }
 
-  // Returns the grid cells that are close to points of the band.
+  // Marks the grid cells that are close to points of the band near creases.
   std::vector<std::uint8_t> taken_cells() const {
     const int width = grid_.input.width, height = grid_.input.height;
     std::vector<std::uint8_t> is_taken(grid_.triangle.pixels.size(), 0);

@@ -8,9 +8,9 @@ namespace relievo {
 namespace {
 
 // The curvature counts as even where the angle between neighbouring cells changes by at most this share of
-// the angle. Where it is uneven, as on rough surfaces, facets are invisible.
+// the angle. Elsewhere, as on rough surfaces, the curvature is uneven, and facets are invisible.
 constexpr float most_change = .25F;
-// Angles of at least this many facet angles are creases. Smaller facets would not make them smoother.
+// An angle of at least this many facet angles is a crease. Smaller facets would not make it smoother.
 constexpr float crease = 3;
 
 // Returns the sine of the angle between the normals of two slopes.
@@ -20,7 +20,8 @@ float turn_between(const Vec2f& a, const Vec2f& b) {
                    ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
-// Returns whether the curvature over three consecutive cells is even, and too large for facets of this angle.
+// Returns whether the curvature over three consecutive cells is even, and so large that facets of this angle
+// need smaller cells.
 bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
   const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
@@ -57,8 +58,8 @@ Level cells_of(const Image<Vec2f>& slopes) {
   return cells;
 }
 
-// Returns whether all smaller squares in and around a square of twice their side are used. Otherwise the
-// large square could be four times as wide as a neighbour.
+// Returns whether the four squares that form a larger square, and all squares of their size around it,
+// are used. Otherwise the larger square could be four times as wide as a neighbour.
 bool can_be_joined(const Level& parts, int x, int y) {
   for (int py = 2 * y - 2; py < 2 * y + 4; ++py)
     for (int px = 2 * x - 2; px < 2 * x + 4; ++px)
@@ -66,8 +67,8 @@ bool can_be_joined(const Level& parts, int x, int y) {
   return true;
 }
 
-// Joins four squares to a larger one wherever the surface turns by at most `most` across the larger square.
-// The four squares are then unused.
+// Joins four squares to a larger square wherever the surface turns by at most `most` across the larger
+// square. The four squares are then marked as unused.
 Level joined(Level& parts, float most) {
   Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
   for (int y = 0; y < whole.ranges.height; ++y)
@@ -92,8 +93,8 @@ bool is_quartered(const Image<Vec2f>& slopes, int x, int y, float facet_angle) {
   return is_even(1, 0) || is_even(0, 1);
 }
 
-// Tolerance for the distance between the midpoints of a rectangle's diagonals, as a share of their length.
-// Grid positions are rounded.
+// Tolerance of the distance between the midpoints of a rectangle's diagonals, as a share of the diagonals'
+// length. The distance is not 0, because grid positions are rounded.
 constexpr double rounding = 1e-6;
 
 bool is_rectangle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -107,7 +108,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
   std::vector<Level> levels;
   levels.push_back(cells_of(slopes));
   for (int side = 2; side <= largest_square; side *= 2) {
-    // Slopes are known at the centres of cells, which span less than the square.
+    // Slopes are known at the centres of cells. The outermost centres of a square are closer together than its sides.
     const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
     levels.push_back(joined(levels.back(), reach * facet_angle));
   }
@@ -124,7 +125,7 @@ std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet
 }
 
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh) {
-  // Returns how much the slope along the segment changes between its ends, times its length.
+  // Returns the change of slope along the segment from a to b, times the segment's length.
   const auto bend = [&](Index a, Index b) {
     return std::abs((slopes[b] - slopes[a]).cast<double>().dot(points[b] - points[a]));
   };
@@ -139,7 +140,7 @@ void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes,
                                               mesh.neighbours[other].begin());
       const Index opposite = mesh.triangles[other][j];
       if (!is_rectangle(points[from], points[opposite], points[to], points[apex])) continue;
-      // Comparisons with NaN are false, so such a diagonal stays.
+      // If a slope is NaN, the comparison is false, and the diagonal stays.
       if (!(bend(apex, opposite) < bend(from, to))) continue;
       mesh.triangles[t] = {apex, from, opposite};
       mesh.triangles[other] = {opposite, to, apex};

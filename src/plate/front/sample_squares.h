@@ -20,14 +20,14 @@ struct SampleSquare {
 constexpr int largest_square = 8;
 
 // Returns squares that cover the grid cells whose slope is not NaN. Across a square of several cells the
-// surface turns by at most about `facet_angle`, in radians. A cell is quartered if the surface turns by more
-// across it and its curvature is even. Unless quartered, neighbouring squares differ in size by at most a
-// factor of two.
+// surface turns by at most about `facet_angle`, in radians. A single cell is quartered if the surface turns
+// by more than this angle across it and its curvature is even. Apart from quartered cells, neighbouring
+// squares differ in size by at most a factor of two.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
-// In each rectangle of a Delaunay triangulation, chooses the diagonal along which the slope changes less,
-// unless the slope of a corner is NaN. These diagonals are otherwise arbitrary, and look like teeth across a
-// ridge. Only the triangles are updated; the mesh's neighbours become invalid.
+// Turns diagonals of a Delaunay triangulation whose points lie on a grid. In each rectangle, either diagonal is
+// Delaunay; arbitrary ones look like teeth across a ridge. Chooses the diagonal along which the slope changes less,
+// unless the slope of a corner is NaN. Only the triangles are updated; the mesh's neighbours become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

@@ -12,10 +12,10 @@
 namespace relievo {
 namespace {
 
-// Share of the relief's area; smaller parts are artefacts of the scan.
+// Parts of less than this share of the relief's area are artefacts of the scan.
 constexpr double smallest_piece = 1e-3;
 
-// Returns, per point, whether the boundary passes it more than once.
+// Returns, per point, whether it is pinched: whether the boundary passes it more than once.
 std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, std::size_t points) {
   std::vector<std::uint8_t> leaving(points, 0);
   for (const auto& [a, b] : boundary_edges(triangles))
@@ -24,7 +24,7 @@ std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, st
   return leaving;
 }
 
-// A triangle around a pinched point. Sorting groups the triangles by point.
+// A triangle around a pinched point, which the boundary passes more than once. Sorting groups the triangles by point.
 struct Spoke {
   Index point, triangle;
   auto operator<=>(const Spoke&) const = default;
@@ -73,7 +73,7 @@ double area_of(const HeightFieldMesh& front, const Triangle& t) {
   return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
-// Removes the connected parts that are smaller than smallest_piece of the whole.
+// Removes the connected parts whose area is less than smallest_piece of the whole area.
 void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
   DisjointSets pieces(front.points.size());
   for (const auto& [a, b, c] : triangles) pieces.join(a, b), pieces.join(b, c);
@@ -88,14 +88,14 @@ void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& tria
                 [&](const Triangle& t) { return area[pieces.find(t[0])] < smallest_piece * whole; });
 }
 
-// Returns a front with only these triangles and their points.
+// Returns the front with only these triangles and their points.
 HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Triangle> triangles) {
   HeightFieldMesh alone{front.points, std::move(triangles), {}, front.ground_mm, front.colours};
   drop_unused(alone);
   return alone;
 }
 
-// Whether a point of a front belongs to the ground, to the relief or to the boundary between them.
+// Says whether a point of a front belongs to the ground, to the relief or to the boundary between them.
 enum class Kind : std::uint8_t { ground, relief, boundary };
 
 std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {
@@ -106,7 +106,8 @@ std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const Boundar
   return kinds;
 }
 
-// Returns whether `place` is inside the boundary: a ray from it crosses the boundary an odd number of times.
+// Returns whether `place` is inside the boundary. It is inside if a ray from it crosses the boundary an odd
+// number of times.
 bool is_within(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary, const Vec2& place) {
   bool is_inside = false;
   for (const BoundaryEdge& edge : boundary) {

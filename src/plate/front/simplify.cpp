@@ -20,12 +20,12 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t grain = 8192;  // points or edges that one task measures
-// The tolerance of triangles that are steeper than allowed. It is smaller than files can store, so such
-// triangles are divided until they are only as steep as the original's triangles, which are within the limit.
+// The tolerance of triangles that are steeper than allowed. It is smaller than files can store. So such triangles are
+// divided until they are only as steep as the original's triangles, which keep to the slope limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
-// A position where a triangle of the approximation exceeds its tolerance: a point of the original, or a
-// position on one of its edges, given as a share of the edge.
+// A position where a triangle of the approximation exceeds its tolerance. It is a point of the
+// original front, or a position on an edge of it, given as a share of the edge.
 struct Candidate {
   Index triangle = no_index;
   double error = 0;
@@ -33,7 +33,7 @@ struct Candidate {
   double share = 0;
 };
 
-// An edge of the original, and the opposite corners of its one or two triangles (no_index for a missing one).
+// An edge of the original front, and the opposite corners of its one or two triangles (no_index for a missing one).
 struct Edge {
   Index a, b;
   std::array<Index, 2> facing = {no_index, no_index};
@@ -48,20 +48,20 @@ std::vector<Edge> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// The triangles that an edge enters after its first one. The last entry is `unknown` if there are more than
-// three.
+// The triangles of the approximation that an edge of the original enters after its first one. If they are
+// more than three, the last entry is `unknown`.
 using Passed = std::array<Index, 3>;
 constexpr Index unknown = no_index - 1;
 
 // The results of measuring a block of points or edges.
 struct Found {
   std::vector<Candidate> candidates;
-  std::vector<Index> beyond_hull;  // points outside all triangles; they exist because the hull is rounded
+  std::vector<Index> beyond_hull;  // points outside all triangles, because the hull is rounded
   double error = 0;                // largest error
   Index last = no_index;           // the triangle that contains the last point
 };
 
-// Returns the triangles that are not level at the height of the ground.
+// Returns the triangles with at least one corner off the height of the ground.
 std::vector<Triangle> triangles_above_ground(const HeightFieldMesh& front) {
   const double ground = front.points[front.hull[0]].z();
   std::vector<Triangle> above;
@@ -88,7 +88,7 @@ class Simplifier {
     for (int round = 0; round < most_insertion_rounds; ++round) {
       RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
       // The approximation becomes as large as the front if it needs almost all points, and points on edges in
-      // addition. Then the front itself is returned.
+      // addition. Then the front itself is the result.
       if (triangle_count() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       std::vector<Candidate> worst = find_worst();
       if (worst.empty()) worst = find_worst_of_all();
@@ -136,9 +136,9 @@ class Simplifier {
     return count;
   }
 
-  // Keeps as many candidates as the limit of triangles allows. With a limit, the half with the smaller errors
-  // is postponed, so that errors are similar everywhere when the limit is reached. A point adds two
-  // triangles, a point on the hull one.
+  // Removes candidates that would exceed the limit of triangles. If there is a limit, the half of the
+  // candidates with the smaller errors is postponed, too. Then errors are similar everywhere when the limit
+  // is reached. A point adds two triangles; a point on the hull adds one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles
@@ -149,10 +149,9 @@ class Simplifier {
     worst.resize(count);
   }
 
-  // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and
-  // the extreme heights. Errors are largest at extremes, and the plate's thickness and height must not
-  // change. With all points of the ground's boundary the triangulation contains its edges, so flat ground
-  // stays flat.
+  // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and the extreme
+  // heights. Errors are largest at extremes, and the plate's thickness and height must not change. If all points of the
+  // ground's boundary are chosen, the triangulation contains its edges, so flat ground stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -188,14 +187,13 @@ class Simplifier {
     return find_worst();
   }
 
-  // Chooses these points, which lie outside all triangles. Returns false if there are none.
+  // Chooses the points `points`, which lie outside all triangles. Returns false if there are none.
   bool choose_beyond_hull(const std::vector<Index>& points) {
     for (const Index i : points) choose(i);
     return !points.empty();
   }
 
-  // Measures the changed triangles. Returns the points outside all triangles; they exist because the hull is
-  // rounded.
+  // Measures the changed triangles. Returns the points that lie outside all triangles, because the hull is rounded.
   std::vector<Index> measure() {
     is_changed_.resize(now_.mesh().size(), 1);
     worst_.resize(is_changed_.size());
@@ -234,8 +232,8 @@ class Simplifier {
     return has_limit ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // `sides` are the one or two triangles at a position with the given error. Returns the first one whose
-  // tolerance is smaller than the error; no_index if there is none.
+  // Returns the first of `sides` whose tolerance is smaller than the error; no_index if there is none.
+  // `sides` are the one or two triangles at a position with this error.
   Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;
@@ -260,9 +258,10 @@ class Simplifier {
     if (off != no_index) found.candidates.push_back({off, error, i});
   }
 
-  // The difference of two piecewise flat surfaces has its extremes at the corners of their overlay: at the
-  // original's points, which include the approximation's, and where edges of both surfaces cross. An edge
-  // within one triangle crosses no edge. If the triangles along an edge are unchanged, so are its errors.
+  // Measures the errors on an edge of the original. The difference of two piecewise flat surfaces has its
+  // extremes at the original's points, which include the approximation's, and where edges of both surfaces
+  // cross. An edge within one triangle crosses no edge of the approximation. If the triangles along an
+  // edge are unchanged, its errors are unchanged, too.
   void measure_edge(Index e, Found& found) {
     const Edge& edge = edges_[e];
     const Index begin = containing_[edge.a], end = containing_[edge.b];
@@ -276,7 +275,7 @@ class Simplifier {
     now_.walk(a.head<2>(), b.head<2>(), begin, [&](std::array<Index, 2> sides, double share, double height) {
       passed[std::min(count, passed.size() - 1)] = count < passed.size() ? sides[1] : unknown;
       ++count;
-      if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end of the edge, which is measured as a point
+      if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end, which measure_point() measures
       const double error = std::abs(height - (a + share * (b - a)).z());
       found.error = std::max(found.error, error);
       if (const Index t = triangle_beyond(sides, error); t != no_index)
@@ -284,8 +283,8 @@ class Simplifier {
     });
   }
 
-  // Chooses the point for an error on an edge of the original: the nearer end, the other end or an opposite
-  // corner, whichever comes first and is not chosen yet. Once all four are chosen, the edge is in the
+  // Chooses the point that is added for an error on an edge of the original. The first of these that is not chosen yet
+  // is added: the nearer end, the farther end, the two opposite corners. Once all four are chosen, the edge is in the
   // Delaunay triangulation, unless the four lie on one circle. In that case the crossing becomes a new point.
   Candidate with_point(Candidate c) const {
     if (c.point != no_index) return c;
@@ -312,7 +311,7 @@ class Simplifier {
   std::vector<std::uint8_t> is_chosen_;  // per point of the original
   std::vector<Index> containing_;        // per point of the original: the triangle that contains it
   Approximation now_;
-  std::vector<Index> original_;  // indices of chosen points in the original; no_index for points on edges
+  std::vector<Index> original_;  // per chosen point: index in the original; no_index for points on edges
   std::vector<Colour> colours_;
   // Per triangle of the approximation: whether it has changed since it was measured, its squared slope, and
   // the position with its largest error if that exceeds the tolerance.

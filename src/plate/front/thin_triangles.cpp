@@ -22,10 +22,10 @@
 namespace relievo {
 namespace {
 
-// The triangles around each point, for a mesh of which only small parts change.
+// Lists the triangles around each point of a mesh. Small parts of the mesh may change.
 class Fans {
  public:
-  // Refers to the triangles, whose address must not change.
+  // Keeps a reference to the triangles, so their address must not change.
   Fans(std::size_t points, std::span<const Triangle> triangles)
       : triangles_(triangles), first_(grouped<Index>(points, [&](auto&& add) {
           for (Index t = 0; t < triangles.size(); ++t)
@@ -62,13 +62,13 @@ class Fans {
   std::unordered_map<Index, std::vector<Index>> changed_;
 };
 
-// Least height of a triangle, as a share of the front's size. It is 8 to 16 units in the last place of the
-// coordinates.
+// Least height of a triangle, as a share of the front's size. This share of the size is 8 to 16 units in
+// the last place of the coordinates.
 constexpr double thinnest = 0x1p-20;
-// Largest change of the surface by a flip, for triangles that rounding does not turn over.
+// Largest change of the surface by a flip, unless rounding turns the triangle over.
 constexpr double most_moved_mm = 1e-3;
 
-// Flips edges one by one. Each flip widens the thinner of two triangles, so the loop ends.
+// Flips edges one by one. Each flip makes the thinner of two triangles wider, so the loop ends.
 class Flipper {
  public:
   Flipper(Solid& front, bool may_lose_edges) : front_(front), may_lose_edges_(may_lose_edges) {
@@ -96,7 +96,7 @@ class Flipper {
     return {static_cast<double>(x), static_cast<double>(y)};
   }
 
-  // Rotates the corners so that the longest edge, seen from above, is between the first two.
+  // Rotates the corners of t so that the longest edge, seen from above, is between the first two.
   Triangle longest_first(Triangle t) const {
     const auto length_sq = [&](std::size_t i) { return (at(t[(i + 1) % 3]) - at(t[i])).squaredNorm(); };
     const std::size_t longest = std::ranges::max(std::array<std::size_t, 3>{0, 1, 2}, {}, length_sq);
@@ -112,8 +112,7 @@ class Flipper {
 
   bool is_thin(Index t) const { return width_mm(front_.triangles[t]) < thinnest_mm_; }
 
-  // Flips the longest edge of a thin triangle. Removes the triangle instead if that edge is on the front's
-  // boundary.
+  // Flips the longest edge of a thin triangle. If that edge is on the front's boundary, removes the triangle instead.
   void widen(Index thin) {
     const Triangle abc = longest_first(front_.triangles[thin]);
     const Index other = fans_->left_of(abc[1], abc[0]);
@@ -135,7 +134,7 @@ class Flipper {
   }
 
   // Returns the triangles around `corner` in order. Starts with the triangle on the given side of the edge
-  // from `corner` to `other`, and ends at the boundary of the front or after a full turn.
+  // from `corner` to `other`. Ends at the boundary of the front or after a full turn.
   std::vector<Index> side_of(Index corner, Index other, bool is_left) const {
     std::vector<Index> side;
     for (Index end = other; side.size() < fans_->around(corner).size();) {
@@ -147,16 +146,16 @@ class Flipper {
     return side;
   }
 
-  // Returns whether removing the triangle abc, whose edge ab is on the front's boundary, would leave two
-  // parts that are connected only by the corner c. Returns false if all triangles on one side of c are thin,
-  // because they are removed next.
+  // Returns whether removing the triangle abc would leave two parts that are connected only by the corner c.
+  // The edge ab must be on the front's boundary. Returns false if all triangles on one side of c are thin,
+  // because these are removed next.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
     const auto are_thin = [&](const std::vector<Index>& side) {
       return std::ranges::all_of(side, [&](Index t) { return is_thin(t); });
     };
     const std::vector<Index> before = side_of(c, a, false), after = side_of(c, b, true);
-    const bool is_inside = before.size() == fans_->around(c).size();  // the triangles surround c
+    const bool is_inside = before.size() == fans_->around(c).size();  // whether triangles surround c
     return !is_inside && !are_thin(before) && !are_thin(after);
   }
 
@@ -167,8 +166,8 @@ class Flipper {
     wake_around(thin);
   }
 
-  // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the
-  // neighbour's opposite corner. Does nothing if the thinner of both triangles would not get wider.
+  // Replaces the edge ab between the thin triangle abc and its neighbour by the edge from c to the opposite
+  // corner of the neighbour. Does nothing if the thinner of both triangles would not become wider.
   bool flip(Index thin, const Triangle& abc, Index neighbour) {
     const auto [a, b, c] = abc;
     const Triangle& other = front_.triangles[neighbour];
@@ -186,7 +185,8 @@ class Flipper {
     return true;
   }
 
-  // Returns the distance in z of the corner c of a thin triangle from the edge ab.
+  // Returns how far the flip of a thin triangle abc changes the surface: the distance in z from the
+  // corner c to the edge ab.
   double moved_by(const Triangle& abc) const {
     const Vec3 &a = front_.points[abc[0]], &b = front_.points[abc[1]], &c = front_.points[abc[2]];
     const Vec2 along = (b - a).head<2>();
@@ -272,7 +272,7 @@ class Unfolder {
         fans_->around(point), [&](Index t) { return is_folded(places_, solid_.triangles[t]); }));
   }
 
-  // Moves one corner of a folded triangle so that fewer triangles around this corner are folded, if possible.
+  // Tries to move one corner of a folded triangle so that fewer triangles around this corner are folded.
   void mend(const Triangle& t) {
     for (int steps = 1; steps <= most_steps; ++steps)
       for (const Index corner : t)

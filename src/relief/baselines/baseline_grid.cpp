@@ -14,8 +14,8 @@
 namespace relievo {
 namespace {
 
-// What every grid needs. `height` is the height of all reliefs. `add` is called with the parameters of each
-// relief, as text, and with its heights, one per point.
+// The inputs of a baseline's parameter grid. All reliefs have the height `height`. `add` is called once for
+// each relief, with its parameters as text and its heights, one per point.
 struct GridInput {
   const Surface& surface;
   const HeightSystem& system;
@@ -119,7 +119,7 @@ std::vector<std::string_view> compared_methods() {
 
 Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
                                   double unit_mm) {
-  TunedRelief best{{}, {}, -2};  // less than any similarity
+  TunedRelief best{{}, {}, -2};  // any similarity is greater
   const std::function<void(std::string, std::vector<double>)> add = [&](std::string parameters,
                                                                         std::vector<double> heights) {
     Relief relief = scaled_relief(std::move(heights), input.surface, height);

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double tolerance = 1e-4;
 
-// A part of a surface as finite elements.
+// A part of the surface on which a finite-element problem is solved.
 struct Sheet {
   std::vector<std::uint8_t> is_triangle;  // per triangle: whether it belongs to the sheet
   std::vector<std::uint8_t> is_fixed;     // per point: whether its height is 0
-  bool is_flat = false;  // whether elements are measured in the view plane instead of in space
+  bool is_flat = false;                   // true: elements are measured in the view plane; false: in space
 };
 
 // Half the cotangents of a triangle's angles, reduced for needles by needle_share(), and the triangle's area.
@@ -43,7 +43,7 @@ Element element_of(const std::array<Vec3, 3>& p) {
 
 // The free points of a sheet, and the least-squares problem of their heights.
 struct SheetFit {
-  std::vector<Index> unknown, free_points;  // unknown of each point; point of each unknown
+  std::vector<Index> unknown, free_points;  // per point: number of its unknown; per unknown: its point
   solver::BoundedFit fit;
 };
 
@@ -59,7 +59,7 @@ SheetFit number_points(const Surface& surface, const Sheet& sheet) {
   return result;
 }
 
-// Returns the problem of fitting heights so that each edge rises by rise(a, b) from point b to point a.
+// Returns the least-squares problem that fits heights so that each edge rises by rise(a, b) from point b to point a.
 template <typename Rise>
 SheetFit assemble(const Surface& surface, const Sheet& sheet, Rise&& rise) {
   SheetFit result = number_points(surface, sheet);
@@ -107,8 +107,8 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
   return heights;
 }
 
-// Handles free points that belong to no triangle of the sheet. Each gets the height of the neighbouring
-// corner that is nearest in depth.
+// Sets the heights of free points that belong to no triangle of the sheet. Such a point gets the height
+// of the point that is nearest in depth among the points with unknowns with which it shares a triangle.
 void fill_between(const Surface& surface, const std::vector<Index>& unknown, std::vector<double>& heights) {
   const std::vector<std::uint8_t>& is_fixed = surface.boundary.is_boundary;
   std::vector<double> nearest(heights.size(), std::numeric_limits<double>::infinity());

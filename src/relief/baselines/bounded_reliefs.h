@@ -1,5 +1,5 @@
-// Baselines whose heights are kept between 0 and the relief's height by a convex quadratic problem with
-// bounds (solver::BoundedFit), solved with a tolerance of 1e-4.
+// Declares baselines whose heights are kept between 0 and the relief's height. Each solves a convex
+// quadratic problem with bounds (solver::BoundedFit) with a tolerance of 1e-4.
 #pragma once
 
 #include <vector>
@@ -34,9 +34,9 @@ namespace relievo {
 // reproduces less of the shading.
 Result<std::vector<double>> mimicking_heights(const Surface& surface, double height);
 
-// An ablation of the layered method. It applies even compression by equation (5), with the same weight w_k at
-// all points, and then equation (9) under the bounds of the height. It has no layers, no height correction,
-// and no forces for the order of depths. `weight` is w_k, in [0, 1].
+// An ablation of the layered method, without layers, height correction and forces for the order of depths. It
+// compresses all slopes evenly by equation (5), with the same weight w_k at all points, and then solves
+// equation (9) under the bounds of the height. `weight` is w_k, in [0, 1].
 Result<std::vector<double>> bounded_heights(const Surface& surface, double height, double weight);
 
 }  // namespace relievo

@@ -60,9 +60,9 @@ Histogram histogram_around(const DepthPicture& picture, int column, int row, int
   return counts;
 }
 
-// Turns counts into the equalising curve: clips the bins at the limit, distributes the excess evenly over all
-// bins, and integrates. The curve has the values at the upper ends of the bins, in [0, 1]. If all counts are
-// 0, the curve is the identity.
+// Turns counts into the equalising curve. It clips the bins at the limit, distributes the excess evenly over
+// all bins, and integrates. The curve has the values at the upper ends of the bins, in [0, 1]. If all counts
+// are 0, the curve is the identity.
 void equalise(Histogram& counts, double clip) {
   const auto bins = static_cast<double>(counts.size());
   double total = 0, cut = 0;

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// Returns the neighbours of each point. An edge with two triangles adds the neighbour twice.
+// Returns the neighbours of each point. A neighbour is listed twice if the edge to it has two triangles.
 Groups<Index> neighbours_of(const Surface& surface) {
   const std::vector<std::uint8_t> is_jump = jump_triangles(surface);
   return grouped<Index>(surface.points.size(), [&](auto&& add) {

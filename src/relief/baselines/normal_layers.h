@@ -19,9 +19,9 @@
 namespace relievo {
 
 struct NormalLayerWeights {
-  // Share of the angle between base normal and view direction that is kept; 0 flattens the base.
+  // Share of the angle between view direction and base normal that is kept; 0 makes the base flat.
   double base = .25;
-  double detail = 1;  // share of the angle between base normal and normal that is kept
+  double detail = 1;  // share of the angle between base normal and surface normal that is kept
 };
 
 // Returns the normals of the base layer. `scale` is the standard deviation of the smoothing on a smooth
@@ -29,7 +29,7 @@ struct NormalLayerWeights {
 // averaged, nor are normals across a depth jump.
 std::vector<Vec3f> base_normals(const Surface& surface, double scale);
 
-// Returns the normal that keeps the given shares of base and detail.
+// Returns the normal that keeps the given shares of the base and detail angles.
 Vec3f weighted_normal(const Vec3f& normal, const Vec3f& base, const NormalLayerWeights& weights);
 
 }  // namespace relievo

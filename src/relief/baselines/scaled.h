@@ -1,4 +1,4 @@
-// Declares functions that several baselines use.
+// Declares functions that several baselines share.
 #pragma once
 
 #include "relievo/relief/baselines.h"
@@ -9,17 +9,17 @@
 namespace relievo {
 
 // Returns the relief with these heights, one per point, after setting boundary points to 0 and scaling all
-// heights to `height`. All baselines end with this call.
+// heights so that the highest is `height`. All baselines end with this call.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
-// Returns the height of each point above the one that is deepest in the view.
+// Returns the height of each point above the deepest point of the surface.
 std::vector<double> depths(const Surface& surface);
 
-// Returns the slope of a normal, shortened to 76 degrees, the default of Shape::max_slope. Otherwise a few
-// steeper slopes at silhouettes would take most of the height.
+// Returns the slope of a normal, shortened to at most the slope of 76 degrees, the default of
+// Shape::max_slope. Without this limit, a few steep slopes at silhouettes would take most of the height.
 Vec2 moderate_slope(const Vec3f& normal);
 
-// These functions return heights for scaled_relief().
+// The following functions return heights for scaled_relief().
 std::vector<double> gradient_heights(const Surface& surface, const HeightSystem& system,
                                      const GradientOptions& options);
 std::vector<double> base_and_detail_heights(const Surface& surface, const HeightSystem& system,

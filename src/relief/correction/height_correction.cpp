@@ -16,30 +16,28 @@
 namespace relievo {
 namespace {
 
-// The width of a cell is `cell_size` of the longer side, a seventh of the bending length, so that the lattice
-// can represent fields that bend over this length. The width is at least `least_cell_size` sampling
-// distances.
+// The width of a lattice cell is `cell_size` of the longer side, but at least `least_cell_size` sampling distances.
+// `cell_size` is a seventh of the bending length, so that the lattice can represent fields that bend over this length.
 constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of the stiffness elsewhere. It is not 0, because the system
 // would then be singular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 // Nodes are free if their coverage is above `least_coverage`. They have a lower limit if their coverage is
-// above `limited_coverage`. Nearer to the silhouette heights rise steeply, so the limits of neighbouring
-// nodes would differ widely. There the ties, springs along the silhouette, hold the field instead.
+// above `limited_coverage`. Nearer to the silhouette, heights rise steeply, so the limits of neighbouring
+// nodes would differ widely. There, ties (springs along the silhouette) hold the field instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The least tension, as a share of the tension inside. It continues the field smoothly outside the
-// silhouette.
+// The least tension, as a share of the tension inside the silhouette. It continues the field
+// smoothly outside the silhouette.
 constexpr float least_tension = .1F;
-// The stiffness of a tie is this value times the length of silhouette in its cell, in cell widths. The unit
-// is the tension across a cell.
+// The stiffness of a tie is `tie_per_cell` times the length of silhouette in its cell, in cell widths. The
+// unit of stiffness is the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// The forces that keep nearer parts higher than farther parts beside them, the near order
-// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
-// side. If the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher
-// by `largest_step` * tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of
-// the tension across a cell of `cell_size`. The forces fade out at the silhouette, where the relief stands
-// off the base anyway.
+// Parameters of the forces that keep nearer parts higher than farther parts beside them, the near order
+// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer side. If
+// the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher by `largest_step` *
+// tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of the tension across a cell of
+// `cell_size`. The forces fade out at the silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -54,15 +52,15 @@ struct Scale {
   Scale(double longer_side, double rho)
       : side(longer_side), cell(side > 0 ? std::max(cell_size * side, least_cell_size * rho) : 1) {}
 
-  // Converts a length, given as a share of the longer side, to cells and squares it; 0 for a surface without
-  // extent.
+  // Returns the square of a length in cells. The length is given as a share of the longer side. Returns 0
+  // for a surface without extent.
   float in_cells_squared(double of_side) const {
     return static_cast<float>(std::pow(of_side * side / cell, 2));
   }
 };
 
-// Returns, per node, the share of the lattice around it that the surface covers. The share is 1/2 on the
-// silhouette and rises smoothly to 1 within two cells, wherever the silhouette passes between the nodes.
+// Returns, per node, the share of the lattice around it that the surface covers. The share is 1/2 on the silhouette and
+// rises smoothly to 1 within two cells. It does not depend on where the silhouette passes between the nodes.
 std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
   std::vector<float> coverage(lattice.nodes());
   for (const Triangle c : triangles_inside(surface)) {
@@ -99,8 +97,8 @@ std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
   return edges;
 }
 
-// Returns a tie for each cell that the silhouette crosses. The tie lies at the middle of the silhouette
-// within the cell. Its stiffness is proportional to the length of the silhouette there.
+// Returns a tie for each cell that the silhouette crosses. The tie is attached at the middle of the
+// part of the silhouette within the cell. Its stiffness is proportional to the length of this part.
 std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
   std::vector<solver::Tie> ties;
   std::vector<Index> tie_of(lattice.nodes(), no_index);
@@ -152,8 +150,8 @@ std::size_t HeightCorrection::Workspace::memory() const {
   return sum;
 }
 
-// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette.
-// The boundary stiffness falls from 1 at a height share of 1 to 0.3 at 0.825
+// Returns limits with a boundary stiffness that falls from 1 at a height share of 1 to 0.3 at 0.825.
+// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette
 // (docs/decisions/height-correction.md).
 HeightLimits HeightLimits::of(double height, const Shape& shape) {
   constexpr double least = .3, fall = 4;
@@ -217,7 +215,7 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(coverage_);
 }
 
-// Returns the extent of the differences between the heights of points in the cells around a node and the
+// Returns the range of the differences between the heights of points in the cells around a node and the
 // heights interpolated from the lattice.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
@@ -265,8 +263,8 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
   // Equation (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The
-  // few points that stay below the base are raised to it. Otherwise the scaling below would take their depth
-  // from all other heights.
+  // few points that stay below the base are raised to it, because otherwise the scaling below would lower
+  // all other heights to make room for them.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

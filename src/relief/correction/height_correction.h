@@ -17,7 +17,7 @@ struct HeightLimits {
   double height;  // > 0; corrected heights lie between 0 and this height
   // (0, 1]; stiffness of the ties that pull the field to 0 along the silhouette
   double boundary_stiffness = 1;
-  // Shape::planes; share of the height by which the field keeps the silhouette above the base
+  // Shape::planes: the field keeps the silhouette above the base by this share of the height.
   double planes = 0;
 
   // Returns the limits for this height and the shape's other parameters.
@@ -60,8 +60,8 @@ class HeightCorrection {
   std::size_t memory() const;
 
   // Finds b for heights, one per point, and stores it in the workspace. Because b is smooth, a few points may
-  // stay slightly outside the limits. If the heights around a node span more than the height, both limits are
-  // exceeded equally. Instantiated for float and double.
+  // stay slightly outside the limits. If the heights around a node span more than the height limit, they
+  // exceed both limits by the same amount. Instantiated for float and double.
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 
@@ -70,7 +70,7 @@ class HeightCorrection {
     return lattice_.at(point, workspace.tiles);
   }
 
-  // Heights and w_b, one per point each, and the limits to compress the heights to.
+  // The heights and weights w_b, one per point each, and the limits that the heights are compressed to.
   template <typename Real>
   struct Heights {
     std::span<Real> values;

@@ -12,13 +12,13 @@
 
 namespace relievo {
 
-// A monotone function of the height. It is the identity between two limits. A share `clipped_share` of the
-// points lies beyond each limit. Beyond a limit the slope falls from 1 to `least_slope` at the extreme
-// height. The base, 0, is never beyond a limit.
+// A monotone function of the height: the identity between two limits, and flatter beyond them. A share
+// `clipped_share` of the points lies beyond each limit. Beyond a limit the slope falls from 1 to
+// `least_slope` at the extreme height. The base, height 0, is never beyond a limit.
 template <typename Real>
 class SoftClip {
  public:
-  // For the reason see docs/method.md, "The height correction".
+  // docs/method.md, "The height correction", has the reason for these values.
   static constexpr double clipped_share = .002, least_slope = .12;
 
   explicit SoftClip(std::span<const Real> heights) {
@@ -46,7 +46,7 @@ class SoftClip {
 
   Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
 
-  // Returns the value at z of a parabola with slope 1 at 0 and the least slope at `length`.
+  // Returns the value at z of a parabola that has slope 1 at 0 and slope `least_slope` at `length`.
   static Real bent(Real z, Real length) {
     return z - static_cast<Real>((1 - least_slope) / 2) * z * z / length;
   }
@@ -70,7 +70,7 @@ class SoftClip {
         1 << 15);
   }
 
-  // Returns how many bins from `begin` contain `wanted` points; the last bin counts in part.
+  // Returns how many bins, counted from `begin`, contain `wanted` points; the last bin counts in part.
   template <typename It>
   static Real bins_from_end(It begin, It end, double wanted) {
     double sum = 0;

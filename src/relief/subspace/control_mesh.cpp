@@ -32,7 +32,7 @@ class Walker {
   }
 
  private:
-  // Returns the edge that p is farthest outside of; -1 if p is inside of all edges.
+  // Returns the edge that has p farthest on its outer side; -1 if p is inside of all edges.
   int edge_towards(const Vec2& p) const {
     int found = -1;
     double least = 0;
@@ -70,9 +70,9 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
   return is_inside;
 }
 
-// Returns which points have height 0: points on the surface's boundary, and points in no inside triangle. A
-// connected component of the mesh may have no such point, because the mesh cuts corners. Then the points at
-// the component's edge have height 0.
+// Returns, per point, whether its height is fixed at 0. That holds for points on the surface's boundary,
+// and for points that belong to no inside triangle. A connected component of the mesh may have no such
+// point, because the mesh cuts corners. Then the points at the component's edge get height 0.
 std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boundary_points) {
   const std::size_t n = mesh.points.size();
   std::vector<std::uint8_t> is_fixed(n, 0), is_used(n, 0), is_at_edge(n, 0), has_fixed(n, 0);
@@ -92,9 +92,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns 6 times the area of each point: the sum of a third of each of its triangles inside the relief.
-// Scans have more points per area of the view plane where the surface is steep, so an unweighted mean over
-// points would give slopes that are too steep.
+// Returns a value proportional to the area of each point in the view plane: 6 times a third of the area of
+// its triangles inside the relief. Scans have more points per area of the view plane where the surface is
+// steep, so an unweighted mean over points would give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (const Triangle corners : triangles_inside(surface)) {
@@ -154,7 +154,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // remains so if the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // stays so if the region has no area
     sample(members[c], share, own);
   }
   return samples;

@@ -30,8 +30,8 @@ class ChosenPoints {
     first = i;
   }
 
-  // Returns whether a chosen point is nearer to point i than the radius, which must not exceed the radius of
-  // the constructor.
+  // Returns whether any chosen point is nearer to point i than the radius. The radius must not exceed that
+  // of the constructor.
   bool has_within(Index i, double radius) const {
     const std::size_t c = column(i), r = row(i);
     for (std::size_t y = r - (r > 0); y <= std::min(r + 1, rows_ - 1); ++y)

@@ -15,9 +15,9 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// The splines of ratio and offset (see SubspaceModel) have the same lattices. The cells of the finest lattice
-// are at least 3/4 of ControlPoints::radius wide. The cells of each coarser lattice are twice as wide as
-// those of the next finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
+// The splines of ratio and offset (see SubspaceModel) use the same hierarchy of lattices. The cells of the finest
+// lattice are at least 3/4 of ControlPoints::radius wide. The cells of each coarser lattice are twice as wide as those
+// of the next finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {
@@ -53,7 +53,7 @@ struct SubspaceModel::Workspace::Storage {
   std::vector<Vec2f> slopes;
   std::vector<float> heights, ratios, offsets;  // at the control points
   SplineFunction ratio, offset;
-  std::vector<float> pair;  // the nodes of both splines, interleaved
+  std::vector<float> pair;  // the values of both splines at the nodes, interleaved
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
@@ -142,8 +142,8 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c, the heights of the control points
 }
 
-// Below a thousandth of the height range the reference height is too small as a divisor. There the ratio
-// fades to the common ratio of all control points.
+// Where the reference height is below a thousandth of the height range, it is too small as a divisor.
+// There the ratio fades to the common ratio of all control points.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
