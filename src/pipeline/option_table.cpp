@@ -315,7 +315,7 @@ std::vector<OptionRow> input_rows() {
        .otherwise = "none",
        .access = text<&DepthOptions::camera, [](auto t) { return parse_camera(t); }>},
       {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
-       .help = "of a depth image without camera: nearest to farthest, in picture widths",
+       .help = "of a depth image without camera: nearest to farthest, as a share of the longer side of the picture",
        .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},
       {.name = "background", .unit = "B", .stage = input, .choices = names_of(removal_choices),
        .help = "of a depth image: what lies behind a depth jump all around the figure; auto drops it, but keeps it "

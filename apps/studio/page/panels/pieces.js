@@ -16,7 +16,7 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
-  "depth-values": "Values are", "depth-range": "Depth in widths", background: "Background", blur: "Blur at edges",
+  "depth-values": "Values are", "depth-range": "Depth as a share", background: "Background", blur: "Blur at edges",
   camera: "Camera", channel: "Channel",
   "mm-per-value": "One unit is", ground: "Ground at",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
