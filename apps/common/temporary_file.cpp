@@ -18,7 +18,7 @@
 
 namespace relievo::app {
 
-// The name of a temporary file, which a signal handler may read at any time.
+// The name of a temporary file. A signal handler may read the name at any time.
 struct TemporaryName {
   // Makes a name from `stem` that this process has not used before. Returns whether the name fits into
   // `text`.

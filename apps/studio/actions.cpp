@@ -287,8 +287,8 @@ Result<ScanSource> Actions::kept(const PackedFile& file) {
 }
 
 // Stores the fonts and drawings that were packed in a project. Then replaces the paths of fonts and drawings in the
-// project's options and in the options of its snapshots: a file whose hash shows that it is stored gets the path of the
-// stored copy; any other relative path starts at `folder`.
+// project's options and in the options of its snapshots. The path of a file whose hash is in the store becomes the path
+// of the stored copy. Any other relative path is made relative to `folder`.
 Result<void> Actions::place_ornaments(const OrnamentFiles& inside, const std::string& folder, Json& project) {
   for (const auto& [name, bytes] : inside) RELIEVO_CHECK(kept({name, bytes}));
   const auto place = [&](const std::string& name) {

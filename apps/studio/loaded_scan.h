@@ -65,7 +65,7 @@ class LoadedScan {
   std::size_t left_out_ = 0;
 };
 
-// Returns the settings for reading depth images from the options. An invalid option counts as its default.
+// Returns what the options say about how depth images are read. An invalid option counts as its default.
 InputArguments reading_of(const OptionValues& values);
 
 // Reads a scan. Errors: those of load_input(); kind memory, with the name of the scan; kind cancelled as soon

@@ -55,8 +55,8 @@ std::optional<Eigen::Matrix<double, n, 1>> numbers(const Json& json, const char*
   return v.allFinite() ? std::optional(v) : std::nullopt;
 }
 
-// Returns a direction, scaled so that its largest component is 1 or -1: no float and no square of it can then
-// overflow.
+// Returns a direction, scaled so that its largest component is 1 or -1. Then its components can be converted to
+// float, and squared, without overflow.
 std::optional<Vec3> direction(const Json& json, const char* key) {
   const std::optional<Vec3> v = numbers<3>(json, key);
   if (!v || v->isZero(0)) return std::nullopt;

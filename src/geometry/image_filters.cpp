@@ -147,8 +147,8 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
-// The number of lines that are averaged together. They are adjacent in memory, so that columns use whole
-// cache lines.
+// The number of rows or columns that are averaged at the same time, each for itself. Columns that are neighbours
+// stand side by side in memory, so that each access to memory uses a whole cache line.
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 

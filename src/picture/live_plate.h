@@ -62,7 +62,8 @@ class LivePlate {
   std::vector<Vec2f> slopes_;      // slopes of the base under the points of the front; empty for a plane
   std::vector<float> rise_;  // heights of the points after relief_ above the base, if the rim's height is 1
   std::vector<Vec2> below_;  // points of the bottom
-  std::optional<BentPoints> bent_;  // the points of front and bottom around a wrap
+  // The points of front and bottom after the plate is bent around the body of the option wrap; empty for a flat plate.
+  std::optional<BentPoints> bent_;
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();
   std::vector<float> heights_;
   std::vector<Vec3f> normals_;

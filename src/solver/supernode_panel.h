@@ -68,9 +68,9 @@ struct Subtree {
 // the elements of the rows below.
 void substitute_forward(const Subtree& subtree);
 
-// Backward substitution: computes the elements of the subtree's columns by multiplying these and the elements of the
-// rows below by L^-T. Goes from the last supernode to the first. So end.values and end.rows must point behind the
-// values and rows of the last supernode. end.work is the same as for the forward direction.
+// Backward substitution: multiplies the work vector by L^-T. Reads the elements of the rows below the subtree, which
+// must be final, and overwrites the elements of its columns. Goes from the last supernode to the first. So end.values
+// and end.rows must point just past the values and rows of the last supernode. end.work is the same as for the forward direction.
 void substitute_backward(const Subtree& end);
 
 // Forward and backward substitution for a single supernode of any size whose rows are the whole work vector, in

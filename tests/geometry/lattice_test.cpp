@@ -58,8 +58,8 @@ TEST(Lattice, IsLinearBetweenItsNodes) {
   }
 }
 
-// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() must not be
-// below this parabola, and at most 1/64 above it.
+// A cubic B-spline with the coefficients n^2 is the parabola x^2 + 1/3. The values of at() must be at
+// least those of this parabola, and may exceed them by at most 1/64.
 TEST(Lattice, IsSmoothBetweenItsNodes) {
   const Scattered s;
   const auto squares = s.refined([&](std::size_t n) {

@@ -31,7 +31,7 @@ const isSameStep = (a, b) => Object.keys(a).every((key) => isSame(a[key], b[key]
 // Returns a step that has the values of `part` in place of the former ones.
 const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
 
-// Returns those values of `part` that did not change between the steps `base` and `later`.
+// Returns `part` without the names whose values differ between the steps `base` and `later`.
 function unlessChanged({options = {}, ...part}, base, later) {
   const kept = (values, was, is) =>
     Object.fromEntries(Object.entries(values).filter(([name]) => isSame(was[name], is[name])));

@@ -15,7 +15,7 @@ const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;
 
 export class Tour {
-  // enter() shows the relief for the tour, and returns whether there is one.
+  // enter() shows the relief for the tour. It returns false if there is no relief to show.
   constructor(enter) {
     this.enter = enter;
     this.text = make("p", {"aria-live": "polite"});

@@ -37,7 +37,7 @@ const otherValue = ({choices, default: usual, max}) =>
   choices ? choices.find((choice) => choice !== usual) : Number((0.9 * usual + 0.1 * max).toFixed(2));
 
 // Options that otherValue() does not suit. `value` is a value that is not the default. If the control is shown only
-// with other options or for one kind of work, `first` or `kind` has these.
+// after other options are set, `first` has these options. If it is shown only for one kind of work, `kind` names it.
 const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}}, method: {value: "paper"}, planes: {value: 0.1}, draft: {value: 12},

@@ -1,4 +1,5 @@
-// Makes height maps of a solid's front: grey levels for machines and pictures, or millimetres.
+// Makes height maps of a solid's front. Their values are grey levels, for machines and for people who look at
+// them, or heights in millimetres.
 #pragma once
 
 #include <array>

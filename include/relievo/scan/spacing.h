@@ -14,7 +14,7 @@ struct Spacing {
   // its 98 % quantile, which is larger in clouds of very uneven density. rho is 0 if there are fewer than 2
   // points or almost all points coincide.
   double rho = 0;
-  bool is_uneven = false;  // whether rho is the quarter of the quantile
+  bool is_uneven = false;  // whether rho is a quarter of the 98 % quantile
   // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other
   // point and k is spacing_neighbours. It is the side of a square whose area is the area per point. For
   // randomly scattered points it is about twice the distance to the nearest neighbour.

@@ -78,8 +78,8 @@ class SideInterpolation {
     float spacing = 0;
   };
 
-  // Returns the values at new points. Each is computed from surrounding points that no outline separates from
-  // it: normal and curvature from a linear fit, the depth from the chords to the nearest points.
+  // Returns the values at new points. A value is computed from the surrounding points that no outline separates from
+  // the new point. A linear fit gives its normal and curvature. depth_at() of the nearest points gives its depth.
   std::vector<Value> at(std::span<const RowPoint> rows) const;
 
  private:
