@@ -32,9 +32,9 @@ withBrowser(async () => {
 
 const options = JSON.parse(run("options", "--json")), shown = options.filter(({is_hidden: isHidden}) => !isHidden);
 
-// Returns a value other than the default: another choice, or a number between the default and the upper limit.
-const otherValue = ({choices, default: usual, max}) =>
-  choices ? choices.find((choice) => choice !== usual) : Number((0.9 * usual + 0.1 * max).toFixed(2));
+// Returns a value other than the default: another choice, or a number between the default and a limit.
+const otherValue = ({choices, default: usual, min, max}) => choices ? choices.find((choice) => choice !== usual)
+  : Number((0.9 * usual + 0.1 * (usual < max ? max : min)).toFixed(2));
 
 // Options that otherValue() does not suit. `value` is a value that is not the default. If the control is shown only
 // after other options are set, `first` has these options. If it is shown only for one kind of work, `kind` names it.
