@@ -36,7 +36,8 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  // The largest radius of a common query, as a multiple of the radius of the smallest ball.
+  // The largest radius of a common query for several balls, as a multiple of the radius of the smallest of
+  // them.
   static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 

@@ -187,8 +187,8 @@ class ShapePointMaker {
     return next;
   }
 
-  // Adds the points of all levels, beginning with the level next to the outline. A ray has a point on a level only if
-  // no other part of the outline is nearer to this point.
+  // Adds the points of all levels, beginning with the level next to the outline. A ray has a point on a level
+  // only if no part of the outline is nearer to this point than the level's distance.
   void add_levels(std::size_t loop) {
     const std::vector<Ray>& rays = loops_[loop];
     tops_[loop].resize(rays.size());
@@ -286,7 +286,8 @@ class ShapePointMaker {
     }
   }
 
-  // Adds the ridge point of the ray, where it meets the wall of another side, if there is one.
+  // Adds the point where the ray meets the wall of another side, and returns its index. Returns no_index if
+  // the ray meets no wall.
   Index add_ridge(const Ray& ray, const std::optional<double>& distance) {
     return distance ? add(ray.foot + *distance * ray.direction, height_at(*distance)) : no_index;
   }

@@ -77,7 +77,8 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  // In square pixels. If twice a triangle's area is smaller, the height of its highest corner replaces its plane.
+  // In square pixels. If twice a triangle's area is less than this, its height is that of its highest corner
+  // everywhere.
   const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;

@@ -52,7 +52,8 @@ class Rasterizer {
     int x, y;  // in 1/256 pixel
   };
   // The first column whose centre is not left of a corner, and the first row whose centre is not above it. If
-  // there is none, the image's width or height.
+  // all columns are left of the corner, `column` is the image's width. If all rows are above it, `row` is the
+  // height.
   struct Cell {
     std::uint16_t column, row;
   };
@@ -74,7 +75,7 @@ class Rasterizer {
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
-  std::vector<std::size_t> first_;  // per band: position of its first triangle; then the number of all
+  std::vector<std::size_t> first_;  // per band: where its triangles begin in triangles_; then their end
   std::vector<Index> triangles_;    // triangles of each band, in the order of the scene
 };
 

@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// Returns a node of the refined lattice: computed from three nodes of the coarser lattice at even positions, from two
-// at odd positions (section 4).
+// Computes a node of the refined lattice (section 4). At an even position it depends on three nodes of the
+// coarser lattice, at an odd position on two.
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
