@@ -66,8 +66,8 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
 }
 
 // Keeps at most eight of the points at each position; `order` has coincident points next to each other. A
-// search near more of them would read them all, so all searches together would take quadratic time. The order
-// of the file decides which eight are kept.
+// search for neighbours near a position with many points would read all of them. Then all searches together
+// would take quadratic time. The order of the file decides which eight are kept.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t same = 0;

@@ -11,7 +11,8 @@
 namespace relievo {
 namespace {
 
-// Neighbours belong to one surface up to this slope, 76 degrees. Steeper slopes are usually jumps.
+// Neighbours belong to one surface if the slope between them is at most this, 76 degrees. Steeper slopes are
+// usually jumps.
 constexpr float steepest = 4;
 // Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
 // noise of each is measured separately.

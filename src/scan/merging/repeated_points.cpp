@@ -29,18 +29,21 @@ struct PointGroup {
 
 constexpr std::size_t most_repeats = 64;    // most points that are searched for repeats of one point
 constexpr std::size_t points_judged = 400;  // number of tested points, evenly distributed over the cloud
-// A gap in the distances around a point is wide if it is so by chance for only this share of scattered points.
+// The distances from a point to the other points, in ascending order, may have a gap: a distance that is much
+// longer than the one before it. A gap is wide if, by chance, only this share of scattered points has so wide
+// a gap.
 constexpr double gap_by_chance = .002;
-// Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth of such
-// positions their distance from each other is less than a tenth of that to other vertices, at a fiftieth less than a
-// hundredth.
+// Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth
+// of such positions, their distance from each other is less than `near_share` times their distance from other
+// vertices. At a fiftieth of the positions, it is less than `sure_share` times that distance.
 constexpr std::size_t most_by_nature = 3;
-constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
-// A cloud has repeats if at least this share of the tested points has a sure gap, or a near one.
+constexpr double near_share = .1, sure_share = .01;  // shares of the distance to other points
+// A cloud has repeats if at least the share `least_near` of the tested points has a wide gap, or if at least
+// the share `least_sure` has a gap with Gap::is_sure.
 constexpr double least_sure = .05, least_near = .4;
-// Points are merged within three times the third quartile of the distances between repeats, but at most within a
-// quarter of the distance to other points. The largest quarter of the distances is ignored, because some of these
-// gaps are due to chance and surround points of several positions.
+// Points are merged if they are closer together than three times the third quartile of Gap::repeat, but at
+// most a quarter of the median of Gap::other. The largest quarter of Gap::repeat is ignored, because some of
+// these gaps are due to chance and surround points at several positions.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to its farthest repeat, and to the nearest point that is not a repeat.

@@ -96,8 +96,9 @@ RELIEVO_INLINE Sums sums_of(std::span<const Neighbours> neighbours, const Frame&
   Sums s;
   for (const Neighbours& each : neighbours) {
     const Eight d = frame.turned(each.place), n = frame.turned(each.normal);
-    // The height of the surface at the point, predicted by a neighbour. It assumes that the chord between the two is
-    // perpendicular to the mean of their normals, which is exact on spheres, too.
+    // The height of the surface at the point, predicted by a neighbour. It is assumed that the chord from the
+    // neighbour to the surface at the point is perpendicular to the mean of the normals at both ends. This is
+    // exact on spheres, too.
     const Float8 up = (d.x * n.x + d.y * n.y + d.z * (n.z + 1)) * .5F, off = up - height;
     const Float8 inside = 1 - (d.x * d.x + d.y * d.y + d.z * d.z);
     const auto counts = (n.z > facing) & (inside > 0);

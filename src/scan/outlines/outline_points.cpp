@@ -263,7 +263,8 @@ std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
   return is_gap;
 }
 
-// Returns whether there are outlines. If there are none, only boundary.is_inside and crumbs change.
+// Does the work of put_points_on_outlines(), and returns true. If there are no outlines, returns false and
+// changes only boundary.is_inside and crumbs.
 bool outlines_replace_points(Surface& surface, PointMeasures& measures,
                              std::span<const OutlineSegment> known_outlines) {
   const ExactOutlines exact(known_outlines, surface.rho);

@@ -85,8 +85,8 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // If a surface turns away slowly, noise of its normals changes the estimated position much, so it gets less
-    // weight.
+    // If a surface turns away slowly, noise of its normals changes the estimated position much, so this
+    // position gets less weight.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);

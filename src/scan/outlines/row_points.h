@@ -49,7 +49,7 @@ inline Vec3 normal_with(Vec2 lean) {
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
-// Values at the surface's points that are not needed any more once the boundary is found.
+// Values at the surface's points. They are not needed any more once the boundary is found.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature; 0 at hole-fill points
   std::vector<float> spacing;  // Spacing::local for clouds of uneven density, else empty

@@ -29,7 +29,7 @@ struct TurnedSurface {
   FrontCells front;  // drawn from all points of the scan
 };
 
-// Returns a surface of about `points` points in that view: one point for every few cells, more along
+// Returns a surface of about `points` points in the view: one point for every few cells, more along
 // silhouettes and depth jumps. Errors: kind geometry if the view shows no area; kind cancelled.
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress = nullptr);
