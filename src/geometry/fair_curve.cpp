@@ -260,7 +260,8 @@ double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
 // Returns whether the samples near a corner are about as close to its sides as to the smooth curve. At the tip of a
 // round shape they are not, because the sides intersect beyond the tip.
 bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
-  // The limit of the ratio of the two sums of squared distances. The ratio reaches 10 at corners of noisy gears.
+  // The limit of the ratio of the two sums of squared distances. The ratio reaches 10 at corners of noisy
+  // gears.
   constexpr double scatter = 12;
   const auto n = static_cast<std::ptrdiff_t>(drawn.size());
   const double per_length = static_cast<double>(n) / course.length();
@@ -320,7 +321,7 @@ std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
   return corners;
 }
 
-// Adds the points of a section, except its end.
+// Adds the points of a section to the curve. The section's end is left out.
 void add_section(const Course& course, const CurveSection& section, const FairCurveOptions& options,
                  FairCurve& curve) {
   const double length = section.to - section.from;

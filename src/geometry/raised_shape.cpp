@@ -35,7 +35,8 @@ Vec2 left_of(const Vec2& step) {
   return Vec2(-step.y(), step.x()).normalized();
 }
 
-// Adds the rays that start at a corner between two sides with the given inner normals.
+// Adds the rays that start at a corner. `before` and `after` are the inner normals of the two sides at the
+// corner.
 void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::vector<Ray>& rays) {
   const double opening = 1 + before.dot(after);
   const bool is_reflex = cross(before, after) < 0;

@@ -48,8 +48,9 @@ struct Columns {
   int begin, end;
 };
 
-// Returns the columns of the current row where no edge function is negative. Quotients are below 2^15, and
-// either integers or at least 2^-31 away from one. So rounding cannot move a quotient across an integer.
+// Returns the columns of the current row where no edge function is negative. Quotients give the columns where
+// the functions are 0. A quotient is below 2^15. It is an integer, or at least 2^-31 away from any integer.
+// So rounding cannot move it across an integer.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
   for (const EdgeFunction& edge : edges) {

@@ -24,8 +24,8 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// Four neighbours of a point: their positions relative to the point, in units of the distance of its farthest
-// neighbour, and their heights relative to it.
+// Four neighbours of a point. x and y are their positions relative to the point, in units of the distance
+// from the point to its farthest neighbour. z is their height relative to the point.
 struct FourHeights {
   Double4 x = {}, y = {}, z = {};
   Double4 is_there = {};  // 1, or 0 for an unused entry

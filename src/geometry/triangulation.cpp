@@ -95,7 +95,8 @@ bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
 }
 
 // Splits e's triangle into three triangles with the common corner p. Returns slot 0 of one of them. If p is
-// on a side, one of the three is flat. Flips remove it, because p is inside the circle on the other side.
+// on a side, one of the three is flat. Flips remove it, because p is inside the circle of the triangle beyond
+// that side.
 Index DelaunayBuilder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
