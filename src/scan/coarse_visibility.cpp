@@ -59,7 +59,7 @@ class Grid {
   }
 
   double facing_share() const {
-    constexpr float edge_on = .1F;  // closer than 6 degrees to edge-on, the sign of a normal is unreliable
+    constexpr float edge_on = .1F;  // n_z at 6 degrees from edge-on; if it is smaller, its sign is unreliable
     std::size_t facing = 0, away = 0;
     for (const Cell& cell : cells_) {
       facing += cell.normal.z() > edge_on;

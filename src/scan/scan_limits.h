@@ -13,7 +13,7 @@ struct ScanLimits {
   // A point is visible if it is at most this far behind the surface in front. The unit is the local spacing,
   // divided by n_z.
   static constexpr double depth_tolerance = 2;
-  // Least n_z in the formula of the tolerance, for surfaces seen edge-on.
+  // The least divisor for the unit of depth_tolerance. It replaces smaller n_z, as on surfaces seen edge-on.
   static constexpr double least_facing = .1;
   // Hole-fill points are at least this far from the nearest visible point in the view plane, in rho.
   static constexpr double hole_fill_distance = 3;

@@ -79,7 +79,7 @@ class OwnDirection {
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
  private:
-  static constexpr double flat = .85;  // least second moment of a flat scan's normals along its direction
+  static constexpr double flat = .85;  // least second moment of normals along the direction of a flat scan
 
   void take(const Vec3& along) {
     const Direction next = measured(cloud_, along, signs_);

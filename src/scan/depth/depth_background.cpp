@@ -191,7 +191,8 @@ GridMask far_group(const DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
-  // If the variance between the groups is less than 70 % of the whole variance, no clear gap separates them.
+  // If the variance between the groups is less than 70 % of the variance of all depths, no clear gap
+  // separates them.
   if (split == 0 || best < .7 * variance) return is_far;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;

@@ -114,9 +114,9 @@ struct BlurLimits {
   float least_share = 0;  // least height difference of the two surfaces, as a share of the range of depths
 };
 
-// Makes structures unknown that are thinner than 3 grid points, such as the thin teeth that depth cameras make along
-// outlines. A point stays known if a square of 3 x 3 known points contains it; positions outside the grid count as
-// known. Returns the number of points that became unknown.
+// Marks structures thinner than 3 grid points as unknown, such as the thin teeth that depth cameras make
+// along outlines. A point stays known if a square of 3 x 3 known points contains it; positions outside the
+// grid count as known. Returns the number of points that became unknown.
 std::size_t drop_teeth(BoundedGrid& grid);
 
 // Finds blur along rows and columns: runs of points between two surfaces that continue neither of them. Adds these

@@ -116,8 +116,8 @@ HeightScale::HeightScale(const DepthImage& image, const DepthOptions& options, c
   const bool is_inverse = options.values == DepthValues::inverse;
   is_log_ = options.camera.has_value() || is_inverse;
   floor_ = is_inverse ? std::max(farthest_inverse * range.high, 1e-30) : 1e-30;
-  // The camera of an estimated depth image is unknown. Most cameras have a field of view of about 50 degrees,
-  // whose focal length is 1.1 times the image's longer side.
+  // The camera of an estimated depth image is unknown. The focal length of most cameras is about 1.1 times
+  // the image's longer side, which gives a field of view of about 50 degrees.
   const double focal = options.camera ? std::sqrt(options.camera->fx * options.camera->fy) : 1.1 * longer;
   scale_ = is_log_ ? focal : range.high > range.low ? options.range * longer / (range.high - range.low) : 1;
   if (options.values == DepthValues::depth) scale_ = -scale_;

@@ -52,9 +52,10 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap in the ascending distances to the nearest points. Later gaps may be due to chance: where
-// points are repeated, the search finds many points at few positions. If points are scattered on a surface, the m-th
-// nearest is closer than s times the distance to the next one with probability s^(2 m).
+// Returns the first wide gap in the ascending distances to the nearest points. Later gaps may be due to
+// chance, because the search finds many points at few positions where points are repeated. If points are
+// scattered on a surface, the m-th nearest is closer than s times the distance to the next one with
+// probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -99,7 +100,8 @@ class Merging {
  public:
   Merging(const Cloud& cloud, Cloud& to) : cloud_(cloud), to_(to), is_merged_(cloud.size(), 0) {}
 
-  // Adds one point for point i, which must not be merged yet, and for its later repeats in `around`.
+  // Adds one point that stands for point i and for those repeats in `around` that follow i in the cloud.
+  // Point i must not be merged yet.
   void add(Index i, std::span<const KdTree<Vec3>::Match> around) {
     PointGroup group;
     group.add(cloud_, i);

@@ -66,8 +66,8 @@ struct LocalSurface {
   }
 };
 
-// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2).
-// Each factor is 1 / (2 variance).
+// The weight of a neighbour is multiplied by exp(-factor * deviation^2) for each of its two deviations from
+// the last fit. A factor is 1 / (2 variance).
 struct Tolerances {
   float normals;  // the factor for the deviation of normals
   float heights;  // the factor for the deviation of heights, which is in units of the radius
@@ -133,7 +133,7 @@ double total(const Float8& eight) {
   return sum;
 }
 
-// Returns the surface for these sums; their weight must be positive.
+// Returns the surface for these sums. The sum of the weights must be positive.
 LocalSurface solved(const Sums& sums) {
   const double w = total(sums.w), wu = total(sums.wu), wv = total(sums.wv), wuv = total(sums.wuv);
   const Mat3 moments{

@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-// Lengths and areas in rho and rho^2; rho is the sampling distance.
+// The unit of lengths is rho, the sampling distance. The unit of areas is rho^2.
 constexpr double least_piece = 20, hole_area = 4;
 // Jumps get a wider window than silhouettes because their nodes scatter more: the position where the front surface
 // ends has an error of one rho or more.
@@ -140,7 +140,8 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the side that follows on the boundary of the same component of inside triangles.
+  // `side` is on the boundary of a component of inside triangles. Returns the side that follows it on this
+  // boundary.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {

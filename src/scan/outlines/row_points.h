@@ -16,7 +16,7 @@ enum class Place : std::uint8_t {
   silhouette,  // a point on the silhouette
   front,       // front, back: on the upper or the lower edge of the wall at a jump
   back,
-  row,  // a point in a row farther from an outline, or inside a gap
+  row,  // a point in another row beside an outline, or inside a gap
 };
 
 inline constexpr Index no_row = no_index;
