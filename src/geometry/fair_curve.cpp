@@ -31,7 +31,8 @@ class Course {
   double begin() const { return begin_; }
   double end() const { return end_; }
   double length() const { return end_ - begin_; }
-  // Returns the length at step k of `steps` equal steps.
+  // Divides the course into `steps` equal steps. Returns the length along the course at the beginning of step
+  // k.
   double at(std::size_t k, std::size_t steps) const {
     return begin_ + length() * static_cast<double>(k) / static_cast<double>(steps);
   }

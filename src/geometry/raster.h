@@ -19,7 +19,7 @@ struct RasterInput {
   static constexpr int most_pixels = 32768;  // limit of width and height, which keeps the coverage test exact
 
   std::vector<Vec3> points;
-  // Counter-clockwise seen from the viewer; others face away and are skipped.
+  // Triangles that the viewer sees counter-clockwise are drawn. The others face away from the viewer.
   std::span<const Triangle> triangles;
   int width = 0, height = 0;
 };

@@ -55,8 +55,9 @@ bool DelaunayBuilder::start() {
 }
 
 // Returns a half-edge of a triangle that has p inside or on its border, or of a ghost whose hull edge has p
-// strictly outside. In a Delaunay triangulation the walk never returns to a triangle: with each step to another circle,
-// the power of p with respect to the circle decreases, and triangles with a common circle are linked as a tree.
+// strictly outside. In a Delaunay triangulation the walk never returns to a triangle, for two reasons. With
+// each step to another circle, the power of p with respect to the circle decreases. Triangles with a common
+// circle are linked as a tree.
 Index DelaunayBuilder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
