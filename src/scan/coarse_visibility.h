@@ -19,8 +19,8 @@ struct CoarseVisibility {
   // The sum of the differences between the normals of neighbouring cells, except across depth jumps.
   double normal_variation = 0;
   double one_layer = 0;  // share of the cells whose nearest and farthest points belong to one surface
-  // Positive if the visible surface has the shape of an outside, negative if it has that of a hollow back.
-  // Does not depend on the signs of normals.
+  // Positive if the visible surface has the shape of an outside, negative if it has the shape of a hollow
+  // back. Does not depend on the signs of normals.
   double outside = 0;
 };
 

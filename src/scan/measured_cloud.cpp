@@ -161,10 +161,10 @@ void set_clean(Scan& scan, Index i, const Vec3& point, const Vec3f& normal) {
 
 }  // namespace
 
-// Removes as much noise as View::denoise states or, if that is empty, as much as was measured. Does not measure the
-// spacing again: where several scans overlap, removing the noise brings their points closer together than the surface
-// is sampled. Points that this view does not need keep their noise, even if another view has removed it, because a
-// relief must not depend on earlier views.
+// Removes as much noise as View::denoise states or, if that is empty, as much as was measured. Does not
+// measure the spacing again, because removing the noise brings points of overlapping scans closer together
+// than the surface is sampled. Points that this view does not need keep their noise, even if another view has
+// removed it, because a relief must not depend on earlier views.
 std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Vec3f& towards_viewer,
                                                                         const Progress* progress) const {
   if (removed_noise_ == 0) return scan_;

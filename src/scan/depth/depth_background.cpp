@@ -64,8 +64,9 @@ class Parts {
   }
 
  private:
-  // Adds all connected points. Only neighbours with similar heights are connected, even if a steep step continues a
-  // steep slope. Otherwise a blurred outline, which is such a slope, would connect the figure with its background.
+  // Adds a part that consists of all points connected with `from`. Only neighbours with similar heights are
+  // connected, even if a steep step continues a steep slope. Otherwise a blurred outline, which is such a
+  // slope, would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());

@@ -80,7 +80,8 @@ void allow_specks(DepthGrid& grid) {
     }
 }
 
-// Widens the bounds to two standard deviations of the noise.
+// Widens the bounds of each height so that they are at least two standard deviations of the noise away from
+// it.
 void allow_noise(DepthGrid& grid) {
   const Noise noise = measure_noise(grid);
   std::vector<float> open;

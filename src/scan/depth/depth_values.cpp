@@ -42,7 +42,7 @@ Extremes extremes_of(const DepthImage& image, const ValueRange& valid) {
   return found;
 }
 
-// Returns whether `v` is, rounded to a float, the largest number of a usual integer type of 8 to 32 bits.
+// Returns whether `v` is the largest number of a usual integer type of 8 to 32 bits, rounded to a float.
 bool is_largest_of_type(double v) {
   constexpr std::array largest = {255., 4095., 32767., 65535., 2147483648., 4294967296.};
   return std::ranges::find(largest, v) != largest.end();

@@ -133,8 +133,8 @@ class Merging {
   std::vector<std::uint8_t> is_merged_;
 };
 
-// Returns the minimum distance for greedy Poisson-disc subsampling of random points, in units of their
-// spacing, that makes the mean spacing grow by the factor `times`. This is random sequential adsorption: of n
+// Returns the least distance for greedy Poisson-disc subsampling of random points, in units of their spacing.
+// With this distance the mean spacing grows by the factor `times`. This is random sequential adsorption: of n
 // points per area, the greedy choice keeps N = J (1 - 1 / sqrt(1 + 2 n / J)), where J = 0.696 / distance^2 is
 // the saturation density.
 double least_distance(double times) {

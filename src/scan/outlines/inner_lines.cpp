@@ -290,7 +290,8 @@ class LineFinder {
     return edges;
   }
 
-  // Returns the direction of the line across which the surface changes most; zero if no line begins here.
+  // Returns the direction of the line across which the surface changes most; zero if no line begins at
+  // `place`.
   Vec2 direction_at(const Vec2& place) {
     constexpr int directions = 12;
     const std::vector<Index> near = finder_.around(place, 0);

@@ -13,7 +13,8 @@
 namespace relievo {
 namespace {
 
-// A point drawn as a disc in view coordinates. The unit is the width of a cell, the origin the corner of the grid.
+// A point drawn as a disc in view coordinates. The unit is the width of a cell. The origin is the corner of
+// the grid.
 struct FrontDisc {
   // Radius, in spacings, of the discs that hide points behind them.
   static constexpr float hiding_radius{ScanLimits::disc_radius};

@@ -19,8 +19,8 @@ struct TurningScan {
   Vec3 centre = Vec3::Zero();           // see Surface::centre
   double rho = 0, diagonal = 0;
 
-  // Returns the scan without the points on and behind the support plane of `surface`, a surface of this scan
-  // that has one.
+  // `surface` is a surface of this scan that has a support plane. Returns the scan without the points on this
+  // plane and the points behind it.
   TurningScan without_plane(const Surface& surface) const;
 };
 
