@@ -99,7 +99,8 @@ class EdgeHolder {
     if (t != no_index) *std::ranges::find(mesh_.neighbours[t], old) = by;
   }
 
-  // Replaces the edge of this side by the other diagonal of its two triangles.
+  // This side is an edge between two triangles, which form a quadrilateral. Replaces it by the other
+  // diagonal.
   void flip(const EdgeOfTriangle& side) {
     const Index t = side.triangle, s = mesh_.neighbours[t][side.apex];
     const Index p = corner(side, 0), u = corner(side, 1), v = corner(side, 2);

@@ -15,13 +15,13 @@ int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
-// Returns the first pixel whose centre is at or after `steps`.
+// Returns the first pixel whose centre is at the coordinate `steps` or after it.
 int first_centre(int steps) {
   const int shifted = steps + steps_per_pixel / 2 - 1;  // may be negative, so a pixel is added and removed
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
-// Returns the number of the first pixel whose centre is at or after `steps`, limited to [0, most].
+// Does the same as first_centre(), but limits the result to [0, most].
 std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
@@ -140,7 +140,8 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: first the number of triangles, later the position in triangles_ for the next one.
+  // Per block and band: first the number of triangles, later the position in triangles_ for the next
+  // triangle.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

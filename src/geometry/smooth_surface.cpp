@@ -138,10 +138,10 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 }
 
 // Returns the difference between the slope at the midpoint of an edge and the mean of the slopes at its ends.
-// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine the
-// component along the edge. To find the other one, we assume that the slope lies on the line through both end slopes,
-// because most surfaces bend mainly in one direction. Thus a bend across rows of points does not depend on the
-// triangulation between the rows.
+// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine
+// the component along the edge. To find the other component, we assume that the slope lies on the line
+// through both end slopes, because most surfaces bend mainly in one direction. Thus a bend across rows of
+// points does not depend on the triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   // If `change` is nearly perpendicular to the edge, its component along the edge is unreliable. The result tends to
