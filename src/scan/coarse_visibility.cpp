@@ -69,7 +69,7 @@ class Grid {
   }
 
   double one_layer() const {
-    constexpr double thin = 6;  // in cells; a surface tilted by 80 degrees rises by this much within a cell
+    constexpr double thin = 6;  // in cells; a layer that is tilted by 80 degrees rises by less within a cell
     std::size_t cells = 0, thin_cells = 0;
     for (const Cell& cell : cells_) {
       if (cell.is_empty()) continue;

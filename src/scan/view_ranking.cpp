@@ -21,8 +21,8 @@ namespace {
 using Sides = std::array<ViewGuess, 6>;
 
 constexpr double front_weight = 1.6;   // factor for the score of the side that is the front in most files
-constexpr double beside_scan = .25;    // factor for the sides perpendicular to the direction of a scan
-constexpr double perhaps_hollow = .5;  // factor for sides with the shape of a hollow back
+constexpr double beside_scan = .25;    // factor for the scores of sides perpendicular to a scan's direction
+constexpr double perhaps_hollow = .5;  // factor for the score of a side with the shape of a hollow back
 
 // Formats a direction for parse_view().
 std::string text_of(const Vec3& direction) {

@@ -221,7 +221,7 @@ CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& remov
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing) {
   constexpr float least_facing =
-      -.1F;  // cosine of 96 degrees; removing noise turns few points beyond this to the viewer
+      -.1F;  // cosine of 96 degrees; few normals with larger angles turn to the viewer when noise is removed
   constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature do
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)

@@ -7,8 +7,10 @@
 namespace relievo {
 namespace {
 
-constexpr double widest_break = 4;     // widest gap that is closed, in rho
-constexpr double likeness = .5;        // least cosine between any two directions: of the gap, or of its ends
+constexpr double widest_break = 4;  // widest gap that is closed, in rho
+// The least cosine between any two of three directions: those at the two ends, and that of the gap between
+// them.
+constexpr double likeness = .5;
 constexpr std::size_t end_points = 4;  // number of points that give the direction of an end
 
 // A place where a jump begins or ends, and the jump's direction there.
