@@ -127,7 +127,7 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
   function.mean = total_weight_ > 0 ? static_cast<float>(sum / total_weight_) : 0;
   for (std::size_t i = 0; i < values.size(); ++i) workspace.rest[i] = values[i] - function.mean;
   std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
-  // Each level fits the residual that the coarser levels leave (section 4). Before, the sum of the coarser
+  // Each level fits the residual that the coarser levels leave (section 4). First, the sum of the coarser
   // levels is refined to the lattice of this level.
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);

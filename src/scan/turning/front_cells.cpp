@@ -157,7 +157,7 @@ void DiscBand::write(FrontCells& cells) const {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-constexpr float least_cell = .6F;       // least width of cells, in spacings; smaller ones would show no more detail
+constexpr float least_cell = .6F;       // least cell width, in spacings; smaller cells show no more detail
 constexpr float steepest = 20;          // largest slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
