@@ -81,7 +81,7 @@ class NearSearch {
   // curve, the indices are close to each other. Then marking them in a list of bits is faster than comparing
   // them.
   void sort_numbers() {
-    constexpr std::size_t most_words = 4;  // of bits, per index; with longer lists comparing is faster
+    constexpr std::size_t most_words = 4;  // words of bits per index; if there are more, comparing is faster
     if (numbers_.empty()) return;
     const auto [least, most] = std::ranges::minmax(numbers_);
     const std::size_t words = (most - least) / 64 + 1;

@@ -145,8 +145,8 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  // Each pass averages over direct neighbours, about rho away. So three passes average over points that are
-  // up to at least 2 rho away.
+  // Each pass averages over direct neighbours, about rho away. So three passes reach points at a distance of
+  // at least 2 rho.
   constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
