@@ -22,15 +22,15 @@ Vec2 crossing(const Line& a, const Line& b) {
          sine;
 }
 
-// Returns the length of a side from its intersection with one neighbour to that with the other. It is negative if the
-// neighbours intersect each other before they reach the side.
+// Returns the length of `side` between its intersections with the lines `before` and `after`. It is negative
+// if these two lines intersect each other before they reach the side.
 double length_of(const Line& before, const Line& side, const Line& after) {
   const Vec2 along(-side.normal.y(), side.normal.x());
   return (crossing(side, after) - crossing(before, side)).dot(along);
 }
 
-// Removes the sides that are too short. A removal changes the lengths of the neighbouring sides, so the search goes
-// back by one side. The loop ends after a whole round without a removal.
+// Removes the sides shorter than `shortest_mm`. A removal changes the lengths of the neighbouring sides, so
+// the loop then goes back by one side. It ends after a whole round without a removal.
 void drop_short(std::vector<Line>& lines) {
   for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {
     const std::size_t n = lines.size();

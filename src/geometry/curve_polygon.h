@@ -1,4 +1,4 @@
-// Turns lines, quadratic and cubic curves into polygons, for glyphs and drawings. Tested by
+// Turns straight lines, quadratic curves and cubic curves into polygons, for glyphs and drawings. Tested by
 // tests/io/svg_test.cpp.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Builds closed outlines from the commands of a pen, and approximates curves by polygons within the
-// tolerance.
+// Builds closed outlines from the commands of a pen. Approximates curves by polygons, with an error of at
+// most `tolerance`.
 class CurvePolygons {
   static constexpr double most_steps = 100;  // most line segments for one curve
 
@@ -38,8 +38,8 @@ class CurvePolygons {
 
   void cubic_to(const Vec2& c, const Vec2& d, const Vec2& p) {
     const Vec2 from = pen();
-    // With equal steps of the curve's parameter, the error is at most an eighth of the squared step times the second
-    // derivative.
+    // If the curve's parameter increases by `step` per line segment, the error is at most step^2 / 8 times
+    // the second derivative.
     const double bend = 6 * std::max((from - 2 * c + d).norm(), (c - 2 * d + p).norm());
     const int steps =
         static_cast<int>(std::clamp(std::ceil(std::sqrt(bend / (8 * tolerance_))), 1.0, most_steps));

@@ -24,8 +24,8 @@ class DelaunayBuilder {
   // point has the same position.
   bool insert(Index p);
 
-  // Inserts a point that was added to `points` after construction. Its index in the result is p. The search for its
-  // triangle begins at `triangle`, unless that is outside.
+  // Inserts a point that was added to `points` after construction. Its index in the result is p. The search
+  // for its triangle begins at `triangle` or, if that is outside, at the last inserted point.
   bool insert_added(Index p, Index triangle);
 
   Triangulation result() const;
@@ -43,7 +43,7 @@ class DelaunayBuilder {
     const Index other = edges_[4 * triangle + (corner + 1) % 3].twin;
     return is_ghost(other) ? no_index : other / 4;
   }
-  // Returns a triangle at the last inserted point.
+  // Returns one of the triangles around the last inserted point.
   Index newest() const { return near_ / 4; }
 
   // Calls f(triangle) for the triangles around the last inserted point, including those outside. The
@@ -75,8 +75,8 @@ class DelaunayBuilder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // Given slot 0 (see edges_) of a triangle at the newest point, returns slot 0 of the next triangle around that
-  // point. All these triangles have the newest point at slot 2.
+  // All triangles around the newest point have it at slot 2 (see edges_). `e` is slot 0 of one of them.
+  // Returns slot 0 of the next one, counted around this point.
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;
@@ -88,7 +88,7 @@ class DelaunayBuilder {
   // Triangle t has four slots: the half-edges 4 t, 4 t + 1 and 4 t + 2, and an unused one. The fourth makes index
   // arithmetic cheap, and no triangle crosses a cache line.
   std::vector<HalfEdge> edges_;
-  Index near_ = 0;  // slot 0 of a real triangle at the last inserted point
+  Index near_ = 0;  // slot 0 of a triangle around the last inserted point, not of a ghost
 };
 
 }  // namespace relievo

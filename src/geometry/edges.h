@@ -1,4 +1,4 @@
-// Iterates over the edges of triangles, each with all triangle sides on it.
+// Iterates over the edges of triangles. Each edge comes with all the triangle sides that lie on it.
 #pragma once
 
 #include <algorithm>

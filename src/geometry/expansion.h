@@ -30,7 +30,7 @@ inline TwoDoubles fast_two_sum(double a, double b) {
   return {sum, b - (sum - a)};
 }
 
-// Returns a as the sum of two halves of at most 26 bits. (Veltkamp; theorem 17)
+// Splits `a` into the sum of two doubles of at most 26 bits each. (Veltkamp; theorem 17)
 inline TwoDoubles split(double a) {
   const double c = 0x8000001p0 * a;  // 2^27 + 1
   const double high = c - (c - a);
@@ -80,7 +80,7 @@ class Expansion {
   }
 
  private:
-  // The array has one more element, because append() writes even a zero, although it does not count it.
+  // The array has one element more than `capacity`, because append() also writes zeros, which do not count.
   std::array<double, capacity + 1> components_;
   std::size_t size_;
 };

@@ -31,7 +31,8 @@ class Course {
   double begin() const { return begin_; }
   double end() const { return end_; }
   double length() const { return end_ - begin_; }
-  // Returns the length at step k of `steps` equal steps.
+  // Divides the course into `steps` equal steps. Returns the length along the course at the beginning of step
+  // k.
   double at(std::size_t k, std::size_t steps) const {
     return begin_ + length() * static_cast<double>(k) / static_cast<double>(steps);
   }
@@ -117,8 +118,8 @@ Vec2 fitted(const Course& course, double at, const CurveSection& section, double
   return moments.ldlt().solve(products).row(0).transpose();
 }
 
-// Returns the nodes as a course. Lengths are measured along the nodes' polyline after smoothing, because
-// zigzag would add length.
+// Returns the nodes as a course. Lengths are measured along the smoothed polyline of the nodes, because the
+// zigzag of the nodes themselves would add length.
 Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
   const std::size_t n = nodes.size();
   std::vector<Vec2> smooth;
@@ -214,11 +215,12 @@ Side side_of(const Course& course, double at, double from, double to) {
           std::sqrt(misfit / spread / static_cast<double>(count - 2))};
 }
 
-// Returns the corner between two straight sides of equal length; its turn is 0 if there is no corner. There is a
-// corner if the direction turns by more than the sides' curvature and the scatter of their samples explain.
+// Fits straight sides to the samples at most `reach` before `at` and at most `reach` after it. Returns the
+// corner between the two sides; its turn is 0 if there is no corner. There is a corner if the direction turns
+// by more than the sides' curvature and the scatter of their samples explain.
 Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
   constexpr double least_turn = std::numbers::pi / 4, most_turn = 110 * std::numbers::pi / 180;
-  constexpr double sure = 3;  // in standard deviations of the turn
+  constexpr double sure = 3;  // least excess of the turn over its limits, in standard deviations
   const double skip = .5 * options.spacing, roughest = .6 * options.spacing;
   const Side before = side_of(course, at, at - reach, at - skip),
              after = side_of(course, at, at + skip, at + reach);
@@ -259,7 +261,9 @@ double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
 // Returns whether the samples near a corner are about as close to its sides as to the smooth curve. At the tip of a
 // round shape they are not, because the sides intersect beyond the tip.
 bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
-  constexpr double scatter = 12;  // ratio of squared distances; corners of noisy gears reach 10
+  // The limit of the ratio of the two sums of squared distances. The ratio reaches 10 at corners of noisy
+  // gears.
+  constexpr double scatter = 12;
   const auto n = static_cast<std::ptrdiff_t>(drawn.size());
   const double per_length = static_cast<double>(n) / course.length();
   const auto middle = static_cast<std::ptrdiff_t>((c.length - course.begin()) * per_length),
@@ -278,8 +282,8 @@ bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> d
   return from_sides < scatter * from_curve;
 }
 
-// Returns the corners in the order of their length. Of corners closer together than 1.5 windows only the
-// sharpest is returned. A corner's length is that of the nearest place on the drawn curve.
+// Returns the corners in their order along the course. Of corners closer together than 1.5 windows only the
+// sharpest is returned. The length of a corner is that of the nearest place on the drawn curve.
 std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
   options.window = options.corner_window;
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
@@ -318,7 +322,7 @@ std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
   return corners;
 }
 
-// Adds the points of a section, except its end.
+// Adds the points of a section to the curve. The section's end is left out.
 void add_section(const Course& course, const CurveSection& section, const FairCurveOptions& options,
                  FairCurve& curve) {
   const double length = section.to - section.from;

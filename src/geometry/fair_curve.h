@@ -15,9 +15,10 @@ struct CurveNode {
 
 struct FairCurveOptions {
   double spacing = 1;  // distance between the curve's points
-  // Half the length of the part of the curve to which each point is fitted. A larger window gives a smoother curve.
+  // Each point of the curve is fitted to the nodes within this distance, measured along the curve. A larger
+  // window gives a smoother curve.
   double window = 4;
-  double corner_window = window;  // window of the curve on which corners are sought
+  double corner_window = window;  // the window of the curve on which corners are sought
 };
 
 struct FairCurve {

@@ -74,8 +74,8 @@ class EdgeHolder {
     return turn(a, b, u) * turn(a, b, v) < 0 && turn(u, v, a) * turn(u, v, b) < 0;
   }
 
-  // Collects the edges that the segment from a to b crosses. Returns false if the segment meets a point or an edge
-  // that must be kept.
+  // Collects the edges that the segment from a to b crosses. Returns false if the segment passes through
+  // another point, or crosses an edge that must be kept.
   bool collect(Index a, Index b, std::deque<EdgeEnds>& crossed) const {
     EdgeOfTriangle side =
         around(a, [&](const EdgeOfTriangle& s) { return is_crossing(a, b, corner(s, 1), corner(s, 2)); });
@@ -99,7 +99,8 @@ class EdgeHolder {
     if (t != no_index) *std::ranges::find(mesh_.neighbours[t], old) = by;
   }
 
-  // Replaces the edge of this side by the other diagonal of its two triangles.
+  // This side is an edge between two triangles, which form a quadrilateral. Replaces it by the other
+  // diagonal.
   void flip(const EdgeOfTriangle& side) {
     const Index t = side.triangle, s = mesh_.neighbours[t][side.apex];
     const Index p = corner(side, 0), u = corner(side, 1), v = corner(side, 2);
@@ -114,7 +115,7 @@ class EdgeHolder {
     at_[p] = at_[u] = at_[q] = t, at_[v] = s;
   }
 
-  // Returns the corner opposite to the side in the triangle beyond it.
+  // Returns the corner that faces the side from the neighbouring triangle.
   Index facing(const EdgeOfTriangle& side) const {
     const Index s = mesh_.neighbours[side.triangle][side.apex];
     return mesh_.triangles[s][(place_of(s, corner(side, 1)) + 1) % 3];

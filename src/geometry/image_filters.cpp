@@ -152,8 +152,8 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 
-// Up to `lanes` lines of n values for a box average. `step` is the distance between the values of a line,
-// `line_step` the distance between lines.
+// Up to `lanes` lines of n values for a box average. `step` is the distance between the values of a line.
+// `line_step` is the distance between lines.
 struct Strip {
   float* values;
   std::size_t n, step, lines, line_step;

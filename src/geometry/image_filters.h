@@ -32,9 +32,9 @@ class Profile {
 // threads.
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
 
-// Replaces each value of a single-channel image by an average of its neighbourhood: two passes per direction of a
-// box that is 2 * radius + 1 pixels wide. Outside the image the border's pixels are repeated. The time does not
-// depend on the radius.
+// Replaces each value of a single-channel image by an average of its neighbourhood. Averages twice along the
+// rows and twice along the columns, each time over a box of 2 * radius + 1 pixels. Outside the image the
+// border's pixels are repeated. The time does not depend on the radius.
 void blur(Image<float>& image, int radius);
 
 }  // namespace relievo

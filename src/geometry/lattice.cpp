@@ -67,7 +67,7 @@ void Lattice::count(std::span<const Index> counted) {
   std::vector<Index> next(begin_.begin(), begin_.end() - 1);
   for (const Index i : counted) {
     const std::size_t c = cell_of(places_[i]);
-    // Keeps `kept` of the cell's points, distributed evenly over the order of these points.
+    // Keeps `kept` of the cell's points, at even intervals in their order.
     const Index n = seen[c]++, kept = std::min(all[c], most_counted);
     if (n * kept / all[c] != (n + 1) * kept / all[c]) counted_[next[c]++] = {i, places_[i]};
   }

@@ -1,4 +1,5 @@
-// Represents quantities that change slowly over the points by a square lattice over the view plane.
+// Represents quantities by their values at the nodes of a square lattice over the view plane. The quantities
+// must change slowly from point to point.
 #pragma once
 
 #include <array>
@@ -101,8 +102,8 @@ class Lattice {
     SplinePlace place;
   };
 
-  // The two highest bits of a packed position give the quarter of the cell, the other bits the position
-  // within the quarter.
+  // The two highest bits of a packed coordinate say in which of the four quarters of the cell's width the
+  // position lies. The other bits give the position within this quarter.
   static constexpr int bits_in_quarter = 14;
   static float share_of_quarter(std::uint16_t share) {
     constexpr int whole = 1 << bits_in_quarter;

@@ -36,7 +36,8 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  // The largest radius of a common query, as a multiple of the radius of the smallest ball.
+  // The largest radius of a common query for several balls, as a multiple of the radius of the smallest of
+  // them.
   static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 
@@ -80,7 +81,7 @@ class NearSearch {
   // curve, the indices are close to each other. Then marking them in a list of bits is faster than comparing
   // them.
   void sort_numbers() {
-    constexpr std::size_t most_words = 4;  // per index; longer lists of bits take longer than comparing
+    constexpr std::size_t most_words = 4;  // words of bits per index; if there are more, comparing is faster
     if (numbers_.empty()) return;
     const auto [least, most] = std::ranges::minmax(numbers_);
     const std::size_t words = (most - least) / 64 + 1;

@@ -103,8 +103,8 @@ std::vector<CutSide> sides_of(const Outlines& outlines) {
   return sides;
 }
 
-// Computes winding numbers. Sides are sorted into horizontal strips, so that only sides at the height of a
-// position are visited.
+// Computes winding numbers. Sides are sorted into horizontal strips, so that only the sides in the strip of a
+// position are visited for this position.
 class WindingRows {
  public:
   explicit WindingRows(const std::vector<CutSide>& sides) : sides_(sides) {

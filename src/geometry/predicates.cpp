@@ -56,8 +56,7 @@ double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   return term(a, b, c) + term(b, c, a) + term(c, a, b);
 }
 
-// Returns the first-order change of a's term of the determinant due to the rounding errors of the
-// differences.
+// Returns how much the rounding errors of the differences change a's term of the determinant, to first order.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
   const double cofactor_error =

@@ -35,7 +35,8 @@ Vec2 left_of(const Vec2& step) {
   return Vec2(-step.y(), step.x()).normalized();
 }
 
-// Adds the rays that start at a corner between two sides with the given inner normals.
+// Adds the rays that start at a corner. `before` and `after` are the inner normals of the two sides at the
+// corner.
 void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::vector<Ray>& rays) {
   const double opening = 1 + before.dot(after);
   const bool is_reflex = cross(before, after) < 0;
@@ -187,8 +188,8 @@ class ShapePointMaker {
     return next;
   }
 
-  // Adds the points of all levels, beginning with the level next to the outline. A ray has a point on a level only if
-  // no other part of the outline is nearer to this point.
+  // Adds the points of all levels, beginning with the level next to the outline. A ray has a point on a level
+  // only if no part of the outline is nearer to this point than the level's distance.
   void add_levels(std::size_t loop) {
     const std::vector<Ray>& rays = loops_[loop];
     tops_[loop].resize(rays.size());
@@ -286,7 +287,8 @@ class ShapePointMaker {
     }
   }
 
-  // Adds the ridge point of the ray, where it meets the wall of another side, if there is one.
+  // Adds the point where the ray meets the wall of another side, and returns its index. Returns no_index if
+  // the ray meets no wall.
   Index add_ridge(const Ray& ray, const std::optional<double>& distance) {
     return distance ? add(ray.foot + *distance * ray.direction, height_at(*distance)) : no_index;
   }

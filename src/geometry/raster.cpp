@@ -15,13 +15,13 @@ int snap(double pixels) {
   return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
 }
 
-// Returns the first pixel whose centre is at or after `steps`.
+// Returns the first pixel whose centre is at the coordinate `steps` or after it.
 int first_centre(int steps) {
   const int shifted = steps + steps_per_pixel / 2 - 1;  // may be negative, so a pixel is added and removed
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
-// Returns the number of the first pixel whose centre is at or after `steps`, limited to [0, most].
+// Does the same as first_centre(), but limits the result to [0, most].
 std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
@@ -48,8 +48,9 @@ struct Columns {
   int begin, end;
 };
 
-// Returns the columns of the current row where no edge function is negative. Quotients are below 2^15, and
-// either integers or at least 2^-31 away from one. So rounding cannot move a quotient across an integer.
+// Returns the columns of the current row where no edge function is negative. Quotients give the columns where
+// the functions are 0. A quotient is below 2^15. It is an integer, or at least 2^-31 away from any integer.
+// So rounding cannot move it across an integer.
 Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
   for (const EdgeFunction& edge : edges) {
@@ -77,7 +78,8 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
-  // In square pixels. If twice a triangle's area is smaller, the height of its highest corner replaces its plane.
+  // In square pixels. If twice a triangle's area is less than this, its height is that of its highest corner
+  // everywhere.
   const double least_area = 1e-9;
   if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
   const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
@@ -138,7 +140,8 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<std::vector<InBands>> covering_in(blocks);
-  // Per block and band: first the number of triangles, later the position in triangles_ for the next one.
+  // Per block and band: first the number of triangles, later the position in triangles_ for the next
+  // triangle.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     covering_in[begin / block] = covering(begin, end);

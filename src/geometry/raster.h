@@ -19,7 +19,7 @@ struct RasterInput {
   static constexpr int most_pixels = 32768;  // limit of width and height, which keeps the coverage test exact
 
   std::vector<Vec3> points;
-  // Counter-clockwise seen from the viewer; others face away and are skipped.
+  // Triangles that the viewer sees counter-clockwise are drawn. The others face away from the viewer.
   std::span<const Triangle> triangles;
   int width = 0, height = 0;
 };
@@ -52,7 +52,8 @@ class Rasterizer {
     int x, y;  // in 1/256 pixel
   };
   // The first column whose centre is not left of a corner, and the first row whose centre is not above it. If
-  // there is none, the image's width or height.
+  // all columns are left of the corner, `column` is the image's width. If all rows are above it, `row` is the
+  // height.
   struct Cell {
     std::uint16_t column, row;
   };
@@ -74,7 +75,7 @@ class Rasterizer {
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<Cell> cells_;         // per point
-  std::vector<std::size_t> first_;  // per band: position of its first triangle; then the number of all
+  std::vector<std::size_t> first_;  // per band: where its triangles begin in triangles_; then their end
   std::vector<Index> triangles_;    // triangles of each band, in the order of the scene
 };
 

@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-// Largest number of cells per side. Larger curves get larger cells.
+// The largest number of cells along the longer side of the grid. Curves that would need more get larger
+// cells.
 constexpr double most_cells = 4096;
 
 }  // namespace

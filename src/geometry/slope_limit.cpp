@@ -109,7 +109,7 @@ class SlopeLimiter {
   void project(const Triangle& t, double wanted, bool is_scaling) {
     const Vec2 slope = triangle_slope(field_, t, heights_);
     const double steepness = slope.norm();
-    // No change of its heights can turn an overturned triangle back, whose slope is not finite.
+    // A triangle without area has no finite slope, whatever its heights are.
     if (!slope.allFinite() || steepness < wanted) return;
     if (is_scaling && std::ranges::count_if(t, [&](Index i) { return field_.is_fixed[i]; }) < 2)
       return scale(t, std::max(wanted / steepness, 1 - most_spare));

@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// The largest distance of a point's slope from the mean slope of the triangles around the point, inside the surface
-// and at its edge. In the direction from that mean to the point's slope, the unit is the largest distance of the
-// triangles' slopes from their mean.
+// The slope of a point may differ from the mean slope of the triangles around it by at most this. The first
+// value holds inside the surface, the second at its edge. The unit is the largest difference of one of these
+// triangles from the mean, measured in the direction of the point's difference.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -24,8 +24,8 @@ Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }
 
-// Four neighbours of a point: their positions relative to the point, in units of the distance of its farthest
-// neighbour, and their heights relative to it.
+// Four neighbours of a point. x and y are their positions relative to the point, in units of the distance
+// from the point to its farthest neighbour. z is their height relative to the point.
 struct FourHeights {
   Double4 x = {}, y = {}, z = {};
   Double4 is_there = {};  // 1, or 0 for an unused entry
@@ -138,10 +138,10 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
 }
 
 // Returns the difference between the slope at the midpoint of an edge and the mean of the slopes at its ends.
-// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine the
-// component along the edge. To find the other one, we assume that the slope lies on the line through both end slopes,
-// because most surfaces bend mainly in one direction. Thus a bend across rows of points does not depend on the
-// triangulation between the rows.
+// `change` is the slope at the second end minus the slope at the first. The heights along the edge determine
+// the component along the edge. To find the other component, we assume that the slope lies on the line
+// through both end slopes, because most surfaces bend mainly in one direction. Thus a bend across rows of
+// points does not depend on the triangulation between the rows.
 template <typename Third>
 Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   // If `change` is nearly perpendicular to the edge, its component along the edge is unreliable. The result tends to
@@ -199,9 +199,10 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
-// Returns, per point, whether the smooth triangles around it do not enclose it. In each of them one neighbour comes
-// after the point and one before it. `balance` is the sum over the former minus the sum over the latter. Around an
-// enclosed point each neighbour comes after it once and before it once, so its balance is 0.
+// Returns, per point, whether the smooth triangles around it do not enclose it. In each of them,
+// counter-clockwise, one corner comes after the point and another one before it. `balance` is the sum of the
+// indices of the corners after it, minus the sum of those before it. Around an enclosed point each neighbour
+// comes after it once and before it once, so its balance is 0.
 std::vector<std::uint8_t> SmoothSurface::open_points() const {
   // Indices are hashed, because sums of plain indices would often be 0 by chance.
   const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };

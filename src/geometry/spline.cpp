@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// Returns a node of the refined lattice: computed from three nodes of the coarser lattice at even positions, from two
-// at odd positions (section 4).
+// Computes a node of the refined lattice (section 4). At an even position it depends on three nodes of the
+// coarser lattice, at an odd position on two.
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
@@ -127,8 +127,8 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
   function.mean = total_weight_ > 0 ? static_cast<float>(sum / total_weight_) : 0;
   for (std::size_t i = 0; i < values.size(); ++i) workspace.rest[i] = values[i] - function.mean;
   std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
-  // Each level fits the residual of the coarser ones (section 4). Their sum is refined to the level's lattice
-  // first.
+  // Each level fits the residual that the coarser levels leave (section 4). First, the sum of the coarser
+  // levels is refined to the lattice of this level.
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);
     if (!levels_[i].sites.empty()) correct(levels_[i], function.nodes, workspace);
@@ -138,7 +138,9 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
 void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy) {
   std::copy_n(nodes.begin(), coarse.columns * coarse.rows, copy.begin());
   const std::size_t columns = 2 * coarse.columns - 3, rows = 2 * coarse.rows - 3;
-  // The first node lies one cell outside the domain, at an odd position of the finer lattice.
+  // The first node of each lattice lies one of its own cells outside the domain. So a node of the finer
+  // lattice coincides with a node of the coarser one where c and r are odd. The paper calls these positions
+  // even.
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const float* node = copy.data() + (r / 2) * coarse.columns + c / 2;

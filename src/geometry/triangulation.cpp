@@ -55,8 +55,9 @@ bool DelaunayBuilder::start() {
 }
 
 // Returns a half-edge of a triangle that has p inside or on its border, or of a ghost whose hull edge has p
-// strictly outside. In a Delaunay triangulation the walk never returns to a triangle: with each step to another circle,
-// the power of p with respect to the circle decreases, and triangles with a common circle are linked as a tree.
+// strictly outside. In a Delaunay triangulation the walk never returns to a triangle, for two reasons. With
+// each step to another circle, the power of p with respect to the circle decreases. Triangles with a common
+// circle are linked as a tree.
 Index DelaunayBuilder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
@@ -95,7 +96,8 @@ bool DelaunayBuilder::circle_contains(Index e, const Vec2& p) const {
 }
 
 // Splits e's triangle into three triangles with the common corner p. Returns slot 0 of one of them. If p is
-// on a side, one of the three is flat. Flips remove it, because p is inside the circle on the other side.
+// on a side, one of the three is flat. Flips remove it, because p is inside the circle of the triangle beyond
+// that side.
 Index DelaunayBuilder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;

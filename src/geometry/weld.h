@@ -81,7 +81,7 @@ struct UsedPoints {
   std::vector<Index> points;      // old indices of the used points, ascending
   std::vector<Index> new_number;  // per old point: its position in `points`; no_index if it is unused
 
-  // Returns the elements of the used points. `old` has an element per old point, or is empty; then so is the
+  // Returns the elements of the used points. `old` has an element per old point. If `old` is empty, so is the
   // result.
   template <typename T>
   std::vector<T> pick(const std::vector<T>& old) const {

@@ -1,4 +1,4 @@
-// Finds a relief of a given height (section 3.6): Algorithm 1.
+// Finds a relief of a given height by Algorithm 1 of the paper (section 3.6).
 #pragma once
 
 #include <cmath>

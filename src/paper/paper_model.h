@@ -28,7 +28,7 @@ class PaperModel {
   static Result<PaperModel> prepare(const Surface& surface, std::size_t control_points,
                                     Progress* progress = nullptr);
 
-  // size() returns the number of visible points, control_points() that of control points.
+  // size() returns the number of visible points. control_points() returns the number of control points.
   std::size_t size() const { return k_.size(); }
   std::size_t control_points() const { return system_.size(); }
   bool is_subspace() const { return mapping_.has_value(); }

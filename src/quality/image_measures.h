@@ -40,7 +40,7 @@ Image<float> divergence(const Image<float>& x, const Image<float>& y, const Pixe
 class MaskedGaussian {
  public:
   MaskedGaussian(double sigma, int radius, const PixelMask& where);
-  // Pixels that are not measured must be 0 before, and are undefined afterwards.
+  // Blurs the image. Pixels that are not measured must be 0 before the call, and they are undefined after it.
   void apply(Image<float>& image, const PixelMask& where) const;
 
  private:
@@ -53,7 +53,7 @@ class MaskedGaussian {
 inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
 inline constexpr std::size_t order_pairs = 200000;
 
-// Returns the blur of the curvature with which detail is compared at a scale.
+// Returns the filter that blurs the curvature before detail is compared at this scale.
 inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
   return {static_cast<double>(scale_px), 3 * scale_px, where};
 }

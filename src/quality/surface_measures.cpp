@@ -68,8 +68,9 @@ SurfaceMeasures::SurfaceMeasures(const Surface& surface) : surface_(surface) {
   find_pairs();
 }
 
-// Finds the sides of triangles on outlines. A side is on the silhouette if both ends are. It is at a jump if both
-// ends are on the same edge of the jump's wall. The triangle's third corner must not be on the outline.
+// Finds those sides of triangles that are on outlines. A side is on the silhouette if both ends are. It is at
+// a jump if both ends are on the same edge of the jump's wall. The triangle's third corner must not be on the
+// outline.
 void SurfaceMeasures::find_outlines() {
   const Boundary& boundary = surface_.boundary;
   std::vector<Rim> silhouette, front, back;

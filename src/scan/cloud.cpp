@@ -33,8 +33,9 @@ std::vector<Index> outliers(const Cloud& cloud) {
   const Vec3 middle = median_of(cloud);
   std::vector<double> distances(cloud.size());
   parallel_for(cloud.size(), [&](std::size_t i) { distances[i] = (cloud.points[i] - middle).norm(); });
-  // The factor 20 keeps the ends of long, thin models, which are far from the median: if points are evenly
-  // distributed on a line, none is farther from the median than 1.2 times this quantile.
+  // The factor 20 keeps the ends of long, thin models, although they are far from the median. (If points are
+  // evenly distributed on a line, none is farther from the median than 1.2 times this quantile of the
+  // distances.)
   const double radius = 20 * quantile(std::vector(distances), .9);
   return indices_where(cloud.size(), [&](Index i) { return radius > 0 && distances[i] > radius; });
 }

@@ -37,8 +37,9 @@ class Grid {
  public:
   Grid(const Cloud& cloud, const Mat3& R, NormalSigns signs) {
     for (const Vec3& p : cloud.points) box_.extend(R * p);
-    // Cells are at least two spacings wide; otherwise the back would be visible through gaps in the front.
-    // The factor 2 below accounts for the points at the back, about half of all.
+    // Cells are at least two spacings wide. Otherwise some cells would contain no points of the front, and
+    // points at the back of the model would seem visible there. The factor 2 below accounts for the points at
+    // the back, about half of all.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
     width_ = std::max({box_.diagonal() / cells_along_diagonal, 2 * spacing, 1e-300});
@@ -58,7 +59,7 @@ class Grid {
   }
 
   double facing_share() const {
-    constexpr float edge_on = .1F;  // closer than 6 degrees to edge-on, the sign of a normal is unreliable
+    constexpr float edge_on = .1F;  // n_z at 6 degrees from edge-on; if it is smaller, its sign is unreliable
     std::size_t facing = 0, away = 0;
     for (const Cell& cell : cells_) {
       facing += cell.normal.z() > edge_on;
@@ -68,7 +69,7 @@ class Grid {
   }
 
   double one_layer() const {
-    constexpr double thin = 6;  // in cells; a surface tilted by 80 degrees rises by this much within a cell
+    constexpr double thin = 6;  // in cells; a layer that is tilted by 80 degrees rises by less within a cell
     std::size_t cells = 0, thin_cells = 0;
     for (const Cell& cell : cells_) {
       if (cell.is_empty()) continue;
@@ -116,12 +117,14 @@ class Grid {
       }
   }
 
-  // The bend between two neighbouring cells is the difference of their normals along the axis on which they are
-  // neighbours; it is positive where the surface is convex. Returns the sum of the bends, each raised to an odd
-  // power, divided by the sum of their absolute values; in [-1, 1].
-  // - Power 1: bends cancel except at outlines and jumps, where an outside turns away from the viewer.
-  // - Power 3: sharp bends dominate. Parts that touch or overlap meet in sharp concave creases, so on an outside the
-  // sharp bends are concave.
+  // The bend between two neighbouring cells is the difference of their normals along the axis on which they
+  // are neighbours; it is positive where the surface is convex. Raises each bend to an odd power. Returns the
+  // sum of the results, divided by the sum of their absolute values; in [-1, 1].
+  // - Power 1: along a row of cells without jumps, the sum of the bends is the change from the first normal
+  // to the last one. It is positive if the surface turns away from the viewer at both ends, as the outside of
+  // an object does.
+  // - Power 3: sharp bends dominate. Parts of an object that touch or overlap meet in sharp concave creases,
+  // so on an outside the sharp bends are concave.
   double signed_share(int power) const {
     double sum = 0, total = 0;
     each_pair([&](const Cell& a, const Cell& b, int axis) {

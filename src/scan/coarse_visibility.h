@@ -19,8 +19,8 @@ struct CoarseVisibility {
   // The sum of the differences between the normals of neighbouring cells, except across depth jumps.
   double normal_variation = 0;
   double one_layer = 0;  // share of the cells whose nearest and farthest points belong to one surface
-  // Positive if the visible surface has the shape of an outside, negative if it has that of a hollow back.
-  // Does not depend on the signs of normals.
+  // Positive if the visible surface has the shape of an outside, negative if it has the shape of a hollow
+  // back. Does not depend on the signs of normals.
   double outside = 0;
 };
 
@@ -28,9 +28,10 @@ struct CoarseVisibility {
 // viewer.
 enum class NormalSigns { outward, inward, unknown };
 
-// Returns an estimate for each view, in the order of the views. Estimates use a grid over the cloud in that
-// view. Its cells are at least as wide as a 160th of the diagonal of the cloud's box; the front point of a
-// cell is its point with the largest z. Crops are ignored. Without normals the results are default values.
+// Returns an estimate for each view, in the order of the views. Each estimate uses a grid over the cloud as
+// seen in its view. The cells of the grid are at least as wide as a 160th of the diagonal of the cloud's box;
+// the front point of a cell is its point with the largest z. Crops are ignored. Without normals the results
+// are default values.
 std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
                                                 NormalSigns signs = NormalSigns::outward);
 

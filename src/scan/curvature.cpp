@@ -41,8 +41,9 @@ RELIEVO_INLINE Vec3 mean_normal(std::span<const FourNeighbours> neighbours) {
   return {total(x), total(y), total(z)};
 }
 
-// Weighted sums over the neighbours of a b^T, where a = (1, u, v) has a neighbour's coordinates in the tangent plane.
-// In `moments`, b is equal to a. In `products`, b has the two components of the neighbour's normal in that plane.
+// Sums of w a b^T over the neighbours of a point. w is the weight of a neighbour. a = (1, u, v), where u and
+// v are its coordinates in the tangent plane. In `moments`, b is equal to a. In `products`, b has the two
+// components of the neighbour's normal in the tangent plane.
 struct TangentSums {
   Mat3 moments;
   Eigen::Matrix<double, 3, 2> products;
@@ -144,8 +145,8 @@ std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  // Each pass averages over direct neighbours and widens the average by about rho, so the result spans at least
-  // 2 rho.
+  // Each pass averages over direct neighbours, about rho away. So three passes reach points at a distance of
+  // at least 2 rho.
   constexpr int passes = 3;
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };

@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-// Returns the triangles inside the relief as a view of the surface.
+// Returns a range of the triangles inside the relief. It refers to `surface`, which must outlive it.
 inline auto triangles_inside(const Surface& surface) {
   return std::views::iota(std::size_t{0}, surface.triangulation.triangles.size()) |
          std::views::filter([&](std::size_t t) { return surface.boundary.is_inside[t] != 0; }) |

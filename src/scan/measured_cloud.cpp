@@ -66,8 +66,8 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
 }
 
 // Keeps at most eight of the points at each position; `order` has coincident points next to each other. A
-// search near more of them would read them all, so all searches together would take quadratic time. The order
-// of the file decides which eight are kept.
+// search for neighbours near a position with many points would read all of them. Then all searches together
+// would take quadratic time. The order of the file decides which eight are kept.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t same = 0;
@@ -161,10 +161,10 @@ void set_clean(Scan& scan, Index i, const Vec3& point, const Vec3f& normal) {
 
 }  // namespace
 
-// Removes as much noise as View::denoise states or, if that is empty, as much as was measured. Does not measure the
-// spacing again: where several scans overlap, removing the noise brings their points closer together than the surface
-// is sampled. Points that this view does not need keep their noise, even if another view has removed it, because a
-// relief must not depend on earlier views.
+// Removes as much noise as View::denoise states or, if that is empty, as much as was measured. Does not
+// measure the spacing again, because removing the noise brings points of overlapping scans closer together
+// than the surface is sampled. Points that this view does not need keep their noise, even if another view has
+// removed it, because a relief must not depend on earlier views.
 std::shared_ptr<const MeasuredCloud::Scan> MeasuredCloud::without_noise(const Vec3f& towards_viewer,
                                                                         const Progress* progress) const {
   if (removed_noise_ == 0) return scan_;

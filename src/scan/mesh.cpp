@@ -67,8 +67,8 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if (!looks_away) return;
     std::swap(corners[1], corners[2]);
     std::swap(normals[1], normals[2]);
-    // If the normals agree with the old order of the corners, the triangle shows its back, and they are reversed, too.
-    // Otherwise only the order was wrong.
+    // If the normals agree with the old order of the corners, the triangle shows its back, so the normals are
+    // reversed, too. Otherwise only the order was wrong.
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });

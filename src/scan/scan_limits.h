@@ -10,9 +10,10 @@ struct ScanLimits {
   // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that the surface would
   // have gaps there. At an isolated point it is so large that the point would hide too large an area.
   static constexpr double least_spacing = .25, largest_spacing = 4;
-  // A point is visible if it is at most this far behind the front. The unit is the local spacing, divided by n_z.
+  // A point is visible if it is at most this far behind the surface in front. The unit is the local spacing,
+  // divided by n_z.
   static constexpr double depth_tolerance = 2;
-  // Least n_z in the formula of the tolerance, for surfaces seen edge-on.
+  // The least divisor for the unit of depth_tolerance. It replaces smaller n_z, as on surfaces seen edge-on.
   static constexpr double least_facing = .1;
   // Hole-fill points are at least this far from the nearest visible point in the view plane, in rho.
   static constexpr double hole_fill_distance = 3;

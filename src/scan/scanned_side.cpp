@@ -79,7 +79,7 @@ class OwnDirection {
   double snap_deg() const { return is_flat_ ? 3 : 25; }
 
  private:
-  static constexpr double flat = .85;  // least second moment of a flat scan's normals along its direction
+  static constexpr double flat = .85;  // least second moment of normals along the direction of a flat scan
 
   void take(const Vec3& along) {
     const Direction next = measured(cloud_, along, signs_);
@@ -145,8 +145,8 @@ double foot_width(const Cloud& cloud, const Vec3& x, const Vec3& y) {
   return static_cast<double>(std::ranges::count(is_stood_on, true)) / is_stood_on.size();
 }
 
-// Rotates the view about the line of sight, so that the object stands on its broadest foot. Returns the given view
-// unless this foot is much broader than the foot in it. Angles are multiples of `step_deg`.
+// Rotates the view about the line of sight, so that the object stands on its broadest foot. Returns the given
+// view unless this foot is much broader than the foot in the given view. Angles are multiples of `step_deg`.
 Side standing(const Cloud& cloud, const Side& side, int step_deg) {
   constexpr double broad = .6, broader = 2, same = .05;
   const Vec3 x = side.up.cross(side.towards_viewer);

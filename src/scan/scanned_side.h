@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// A direction of view. `towards_viewer` points from the model to the viewer, `up` upwards in the view. They
-// are perpendicular unit vectors.
+// A direction of view. `towards_viewer` points from the model to the viewer. `up` points upwards in the view.
+// They are perpendicular unit vectors.
 struct Side {
   Vec3 towards_viewer, up;
 };

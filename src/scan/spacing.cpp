@@ -44,9 +44,9 @@ Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points, 
       },
       1024);
   if (points.size() < 2 || (progress && progress->is_cancelled())) return spacing;
-  // rho is the median, because some far outliers or dense spots would change the mean. If the density varies
-  // much, as among the corners of a mesh, rho is larger; otherwise sparse parts would count as noise and
-  // holes.
+  // rho is the median of the local spacings, because some far outliers or dense spots would change the mean.
+  // If the density varies much, as among the corners of a mesh, rho is larger than the median. With the
+  // median, sparse parts would count as noise and holes.
   std::vector<float> distances = spacing.local;
   const double least = static_cast<double>(quantile(distances, almost_all)) / largest_ratio;
   spacing.rho = static_cast<double>(median(distances));

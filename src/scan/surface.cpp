@@ -47,7 +47,7 @@ void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Sp
   constexpr double low = 4;
   constexpr double flat = .05;
   constexpr double connected = 3;    // neighbours closer than this, in local spacings, are in one component
-  constexpr double high_share = .1;  // least share of high points in a figure
+  constexpr double high_share = .1;  // least share of high points in a part that is kept
   // Size of the smallest part that is kept, as a share of the largest part.
   constexpr double debris_share = .03;
   std::vector<std::uint8_t> is_left(cloud.size(), 0);

@@ -23,8 +23,9 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
   parallel_for(points.size(), [&](std::size_t i) {
-    // A margin of one cell provides space for neighbours. It is added after rounding down, because the sum
-    // could be rounded up to the next cell.
+    // A margin of one cell before the first one provides space for neighbours. So 1 is added to a cell's
+    // number, after this was rounded down. If 1 were added before this, the sum could be rounded up to the
+    // next whole number.
     const Vec3 from_corner = (points[i] - box.min) / side;
     const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
     const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());

@@ -21,8 +21,8 @@ namespace {
 using Sides = std::array<ViewGuess, 6>;
 
 constexpr double front_weight = 1.6;   // factor for the score of the side that is the front in most files
-constexpr double beside_scan = .25;    // factor for the sides perpendicular to the direction of a scan
-constexpr double perhaps_hollow = .5;  // factor for sides with the shape of a hollow back
+constexpr double beside_scan = .25;    // factor for the scores of sides perpendicular to a scan's direction
+constexpr double perhaps_hollow = .5;  // factor for the score of a side with the shape of a hollow back
 
 // Formats a direction for parse_view().
 std::string text_of(const Vec3& direction) {
@@ -53,8 +53,9 @@ Sides sides_around(const Side& front) {
           guess_of({right, up}), guess_of({-up, towards}), guess_of({up, -towards})};
 }
 
-// Returns the area of the bounding box of the lowest points along an axis (along its opposite if `sign` is -1), as a
-// share of the area of the whole box. Both areas are measured perpendicular to the axis.
+// The foot of a model consists of its lowest points, where up is the positive axis or, if `sign` is -1, the
+// negative axis. Returns the area of the foot's bounding box as a share of the area of the model's box. Both
+// areas are measured perpendicular to the axis.
 double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   constexpr double foot = .03;  // share of the height; points within it belong to the foot
   const double lowest = sign > 0 ? box.min[axis] : -box.max[axis], least = lowest + foot * box.size()[axis];
@@ -67,8 +68,11 @@ double foot_along(const Cloud& cloud, const Box& box, int axis, int sign) {
   return share;
 }
 
-// Returns the front of an upright model. Usually it is +Z, with Y upwards. If the model has a much wider foot at its
-// least z, the front is -Y with Z upwards; if at its largest y, -Z with -Y upwards, as in the coordinates of cameras.
+// Returns the front of an upright model. It depends on the side on which the model has its foot.
+// - Usually the foot is at the least y. Then the front is +Z, with Y upwards.
+// - If the foot at the least z is much broader than that at the least y, the front is -Y, with Z upwards.
+// - If the foot at the largest y is much broader, the front is -Z, with -Y upwards, as in the coordinates of
+// cameras.
 Side front_of(const Cloud& cloud) {
   constexpr double wide = .3, wider = 3;
   const Box box = bounds(cloud);

@@ -55,8 +55,8 @@ void sign_normals(ViewedCloud& viewed, Surface& surface) {
   remove_noise_in_front(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
-// Returns the share of the area, in the view plane, of all points whose normals face the viewer, hidden
-// points included.
+// Each point stands for an area in the view plane, whether it is visible or hidden. Returns the area of the
+// points whose normals face the viewer, as a share of the area of all points.
 double facing_share(const ViewedCloud& viewed) {
   double facing = 0, total = 0;
   for (std::size_t i = 0; i < viewed.cloud.size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 constexpr double pixel_side = 0.5;  // width of the depth buffer's pixels, in rho; discs are wider
 // Of points closer together than this in the view plane, in rho, only the nearest to the viewer is kept.
 constexpr double coincidence_distance = .01;
-// Connected sets of fewer visible points count as floating noise.
+// Connected sets with fewer visible points than this count as floating noise.
 constexpr std::size_t smallest_fragment = 32;
 // Neighbours farther apart than this, in local spacings, are not connected. A disc of this radius contains 9 pi = 28
 // points.

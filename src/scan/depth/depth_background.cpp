@@ -7,9 +7,10 @@
 namespace relievo {
 namespace {
 
-// A contact is a pair of neighbouring pixels of different parts. A background covers at least the share `least_border`
-// of the image's border, and at least the share `least_jumps` of its contacts with the figure are depth jumps. If the
-// figure has more than the share `most_missing` of its contacts with missing pixels, these pixels are its background.
+// A contact is a pair of neighbouring pixels of different parts. A background covers at least the share
+// `least_border` of the image's border. Of its contacts with the figure, at least the share `least_jumps` are
+// depth jumps. If more than the share `most_missing` of the figure's contacts are with missing pixels, these
+// pixels are its background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
 constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
@@ -18,7 +19,7 @@ constexpr double least_figure_share = .01;  // share of the image; smaller figur
 constexpr int widest_outline = 12;
 constexpr float steeper = 3;
 // The depths of a figure and its background may overlap. This share of the background's points, the nearest
-// ones, may be in front of the median of the figure.
+// ones, may be in front of the median depth of the figure.
 constexpr double nearest_share = .05;
 
 constexpr int none = -1;
@@ -63,8 +64,9 @@ class Parts {
   }
 
  private:
-  // Adds all connected points. Only neighbours with similar heights are connected, even if a steep step continues a
-  // steep slope. Otherwise a blurred outline, which is such a slope, would connect the figure with its background.
+  // Adds a part that consists of all points connected with `from`. Only neighbours with similar heights are
+  // connected, even if a steep step continues a steep slope. Otherwise a blurred outline, which is such a
+  // slope, would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -176,7 +178,8 @@ GridMask far_group(const DepthGrid& grid) {
   GridMask is_far(grid.height.size(), 0);
   const std::vector<float> heights = sorted_heights(grid, is_far, false);
   if (heights.size() < 16) return is_far;
-  // Otsu's method: at the best threshold the variance between the groups is largest, so that within them is least.
+  // Otsu's method: at the best threshold the variance between the groups is largest, so the variance within
+  // them is least.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());
@@ -189,7 +192,8 @@ GridMask far_group(const DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
-  // If the variance between the groups is less than 70 % of the whole variance, no clear gap separates them.
+  // If the variance between the groups is less than 70 % of the variance of all depths, no clear gap
+  // separates them.
   if (split == 0 || best < .7 * variance) return is_far;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;

@@ -12,8 +12,8 @@ namespace {
 constexpr float least_jump =
     8;  // least height difference of two surfaces with blur between them, in widths of a grid cell
 
-// Returns whether a run of the steps from `first` to `last` contains a surface of its own: a step that is
-// small compared with the steps before and after it.
+// Returns whether the run of steps from `first` to `last` contains a surface of its own: a step that is small
+// compared with the steps before and after it.
 bool has_plateau(const GridLine& line, int first, int last) {
   for (int s = first + 1; s < last; ++s) {
     const float around = std::min(std::abs(line.step(s - 1)), std::abs(line.step(s + 1)));

@@ -24,7 +24,7 @@ Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r)
   return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
 }
 
-// Scales a cloud of pixels with sides of 1 to the given width and height of a pixel.
+// The pixels of the cloud have sides of length 1. Changes their width and height to those in `shape`.
 void scale_pixels(Cloud& cloud, const Vec2& shape) {
   if (shape == Vec2::Ones()) return;
   for (Vec3& p : cloud.points) p.head<2>() = p.head<2>().cwiseProduct(shape);

@@ -11,7 +11,8 @@
 namespace relievo {
 namespace {
 
-// Neighbours belong to one surface up to this slope, 76 degrees. Steeper slopes are usually jumps.
+// Neighbours belong to one surface if the slope between them is at most this, 76 degrees. Steeper slopes are
+// usually jumps.
 constexpr float steepest = 4;
 // Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
 // noise of each is measured separately.
@@ -79,7 +80,8 @@ void allow_specks(DepthGrid& grid) {
     }
 }
 
-// Widens the bounds to two standard deviations of the noise.
+// Widens the bounds of each height so that they are at least two standard deviations of the noise away from
+// it.
 void allow_noise(DepthGrid& grid) {
   const Noise noise = measure_noise(grid);
   std::vector<float> open;

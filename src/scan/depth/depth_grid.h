@@ -10,7 +10,8 @@
 
 namespace relievo {
 
-// A row-major grid. Bounds are valid only where `is_known` is set, connections only between two known points.
+// A row-major grid. Bounds are valid only where `is_known` is set. Connections are valid only between two
+// known points.
 struct BoundedGrid {
   int width = 0, height = 0;
   std::vector<float> low, high;
@@ -81,8 +82,9 @@ struct GridLine {
     return i >= 0 && i + 1 < size && grid.bounds.is_known[at(i)] && grid.bounds.is_known[at(i + 1)];
   }
   float step(int i) const { return has_step(i) ? grid.height[at(i + 1)] - grid.height[at(i)] : 0; }
-  // Returns whether step i continues the slope of step `next`, the step before or after it. The last step of
-  // a round side is steeper than the one before it; on a sphere up to 2.4 times.
+  // Returns whether step i continues the slope of step `next`, the step before or after it. At the edge of a
+  // round shape, the last step is steeper than the step before it; on a sphere it is up to 2.4 times as
+  // steep.
   bool continues(int i, int next) const;
   // Returns whether the points i and i + 1 are known and belong to one surface.
   bool is_smooth(int i) const;
@@ -101,9 +103,10 @@ void each_line(const DepthGrid& grid, F&& f) {
 // Connects neighbouring grid points unless there is a depth jump between them. Terrain has no depth jumps.
 void join(DepthGrid& grid);
 
-// Returns a mask of the background: the parts behind depth jumps all around the figure that cover most of the image's
-// border. Without strong evidence of a background, the mask is empty unless `is_wanted`. Then a threshold separates
-// two groups of depths, and the mask contains the far group if this covers most of the border.
+// Returns a mask of the background: the parts behind depth jumps all around the figure that cover most of the
+// image's border. If there is no strong evidence of a background, the mask is empty, unless `is_wanted` is
+// true. Then a threshold separates two groups of depths. The mask contains the far group if this
+// group covers most of the border.
 GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
 struct BlurLimits {
@@ -111,9 +114,9 @@ struct BlurLimits {
   float least_share = 0;  // least height difference of the two surfaces, as a share of the range of depths
 };
 
-// Makes structures unknown that are thinner than 3 grid points, such as the thin teeth that depth cameras make along
-// outlines. A point stays known if a square of 3 x 3 known points contains it; positions outside the grid count as
-// known. Returns the number of points that became unknown.
+// Marks structures thinner than 3 grid points as unknown, such as the thin teeth that depth cameras make
+// along outlines. A point stays known if a square of 3 x 3 known points contains it; positions outside the
+// grid count as known. Returns the number of points that became unknown.
 std::size_t drop_teeth(BoundedGrid& grid);
 
 // Finds blur along rows and columns: runs of points between two surfaces that continue neither of them. Adds these

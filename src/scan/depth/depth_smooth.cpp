@@ -46,8 +46,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
   return half;
 }
 
-// Returns coarse heights, interpolated linearly between connected points at the points of the fine grid, and
-// clamped to the bounds.
+// Returns heights at the points of the fine grid. They are interpolated linearly between connected points of
+// the coarse grid, whose heights are `z`. Then they are clamped to the bounds of the fine grid.
 std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, const std::vector<float>& z) {
   std::vector<float> out(fine.low.size(), 0);
   parallel_for(

@@ -9,7 +9,7 @@ namespace {
 // The square extends this many points to each side of its centre, so it has 3 x 3 points. Teeth are narrower.
 constexpr int reach = 1;
 
-// Calls f for the points of the square around a point that are in the grid, until f returns true.
+// Calls f for those points of the square around a point that are in the grid, until f returns true.
 template <typename F>
 bool any_around(const BoundedGrid& grid, int column, int row, F&& f) {
   for (int r = std::max(row - reach, 0); r <= std::min(row + reach, grid.height - 1); ++r)

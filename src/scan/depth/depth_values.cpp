@@ -42,7 +42,7 @@ Extremes extremes_of(const DepthImage& image, const ValueRange& valid) {
   return found;
 }
 
-// Returns whether `v` is, rounded to a float, the largest number of a usual integer type of 8 to 32 bits.
+// Returns whether `v` is the largest number of a usual integer type of 8 to 32 bits, rounded to a float.
 bool is_largest_of_type(double v) {
   constexpr std::array largest = {255., 4095., 32767., 65535., 2147483648., 4294967296.};
   return std::ranges::find(largest, v) != largest.end();
@@ -116,8 +116,8 @@ HeightScale::HeightScale(const DepthImage& image, const DepthOptions& options, c
   const bool is_inverse = options.values == DepthValues::inverse;
   is_log_ = options.camera.has_value() || is_inverse;
   floor_ = is_inverse ? std::max(farthest_inverse * range.high, 1e-30) : 1e-30;
-  // The camera of an estimated depth image is unknown. Most cameras have a field of view of about 50 degrees,
-  // whose focal length is 1.1 times the image's longer side.
+  // The camera of an estimated depth image is unknown. The focal length of most cameras is about 1.1 times
+  // the image's longer side, which gives a field of view of about 50 degrees.
   const double focal = options.camera ? std::sqrt(options.camera->fx * options.camera->fy) : 1.1 * longer;
   scale_ = is_log_ ? focal : range.high > range.low ? options.range * longer / (range.high - range.low) : 1;
   if (options.values == DepthValues::depth) scale_ = -scale_;

@@ -17,10 +17,10 @@ struct ValueRange {
   static ValueRange none();  // empty; extend() makes it the range of one value
 };
 
-// Returns the range of the values that are depths. Values outside this range mark pixels without measurement or
-// without object: 0 or less in depths, the largest value of the file's type, the value with which a renderer marks
-// pixels without object, or the usual markers of terrain models. The latter three are recognised only if a wide gap
-// separates them from all other values.
+// Returns the range of the values that are depths. Values outside this range mark pixels without measurement
+// or without object: 0 or less in depths, the largest value of the file's type, the value with which a
+// renderer marks pixels without object, or the usual markers of terrain models. The last three kinds are
+// recognised only if a wide gap separates them from all other values.
 ValueRange valid_values(const DepthImage& image, DepthValues kind);
 
 // Converts values into heights towards the viewer, in pixels of the image.

@@ -83,7 +83,8 @@ void snap_to_axis(OrganisedCamera& camera) {
   camera.forward = std::copysign(1., camera.forward[axis]) * Vec3::Unit(axis);
 }
 
-// Returns the camera, provided that nine in ten points are less than half a pixel away from their pixel's ray.
+// Returns the camera if nine in ten points are less than half a pixel away from the rays of their pixels,
+// else nothing.
 std::optional<OrganisedCamera> find_camera(const OrganisedCloud& scan) {
   constexpr double farthest_px = .5, share = .9;
   const std::vector<Pixel> pixels = some_pixels(scan);

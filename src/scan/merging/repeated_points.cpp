@@ -29,18 +29,21 @@ struct PointGroup {
 
 constexpr std::size_t most_repeats = 64;    // most points that are searched for repeats of one point
 constexpr std::size_t points_judged = 400;  // number of tested points, evenly distributed over the cloud
-// A gap in the distances around a point is wide if it is so by chance for only this share of scattered points.
+// The distances from a point to the other points, in ascending order, may have a gap: a distance that is much
+// longer than the one before it. A gap is wide if, by chance, only this share of scattered points has so wide
+// a gap.
 constexpr double gap_by_chance = .002;
-// Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth of such
-// positions their distance from each other is less than a tenth of that to other vertices, at a fiftieth less than a
-// hundredth.
+// Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth
+// of such positions, their distance from each other is less than `near_share` times their distance from other
+// vertices. At a fiftieth of the positions, it is less than `sure_share` times that distance.
 constexpr std::size_t most_by_nature = 3;
-constexpr double near_share = .1, sure_share = .01;  // as shares of the distance to other points
-// A cloud has repeats if at least this share of the tested points has a sure gap, or a near one.
+constexpr double near_share = .1, sure_share = .01;  // shares of the distance to other points
+// A cloud has repeats if at least the share `least_near` of the tested points has a wide gap, or if at least
+// the share `least_sure` has a gap with Gap::is_sure.
 constexpr double least_sure = .05, least_near = .4;
-// Points are merged within three times the third quartile of the distances between repeats, but at most within a
-// quarter of the distance to other points. The largest quarter of the distances is ignored, because some of these
-// gaps are due to chance and surround points of several positions.
+// Points are merged if they are closer together than three times the third quartile of Gap::repeat, but at
+// most a quarter of the median of Gap::other. The largest quarter of Gap::repeat is ignored, because some of
+// these gaps are due to chance and surround points at several positions.
 constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to its farthest repeat, and to the nearest point that is not a repeat.
@@ -49,9 +52,10 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the first wide gap in the ascending distances to the nearest points. Later gaps may be due to chance: where
-// points are repeated, the search finds many points at few positions. If points are scattered on a surface, the m-th
-// nearest is closer than s times the distance to the next one with probability s^(2 m).
+// Returns the first wide gap in the ascending distances to the nearest points. Later gaps may be due to
+// chance, because the search finds many points at few positions where points are repeated. If points are
+// scattered on a surface, the m-th nearest is closer than s times the distance to the next one with
+// probability s^(2 m).
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
@@ -96,7 +100,8 @@ class Merging {
  public:
   Merging(const Cloud& cloud, Cloud& to) : cloud_(cloud), to_(to), is_merged_(cloud.size(), 0) {}
 
-  // Adds one point for point i, which must not be merged yet, and for its later repeats in `around`.
+  // Adds one point that stands for point i and for those repeats in `around` that follow i in the cloud.
+  // Point i must not be merged yet.
   void add(Index i, std::span<const KdTree<Vec3>::Match> around) {
     PointGroup group;
     group.add(cloud_, i);
@@ -128,8 +133,8 @@ class Merging {
   std::vector<std::uint8_t> is_merged_;
 };
 
-// Returns the minimum distance for greedy Poisson-disc subsampling of random points, in units of their
-// spacing, that makes the mean spacing grow by the factor `times`. This is random sequential adsorption: of n
+// Returns the least distance for greedy Poisson-disc subsampling of random points, in units of their spacing.
+// With this distance the mean spacing grows by the factor `times`. This is random sequential adsorption: of n
 // points per area, the greedy choice keeps N = J (1 - 1 / sqrt(1 + 2 n / J)), where J = 0.696 / distance^2 is
 // the saturation density.
 double least_distance(double times) {

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// Does the same as the function in cloud.h; `tree` contains the points of the cloud. Returns nothing if hardly any
-// points are repeated.
+// Does the same as without_repeated_points() in cloud.h; `tree` contains the points of the cloud. Returns
+// nothing if hardly any points are repeated.
 std::optional<Cloud> without_repeated_points(const Cloud& cloud, const KdTree<Vec3>& tree);
 
 // Returns a subset of the points of a cloud with normals. The spacing of the subset, as measured by

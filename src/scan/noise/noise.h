@@ -26,13 +26,13 @@ struct NoiseRemoval {
   std::span<const Index> points;
 };
 
-// Returns the points, in their order, each moved onto a surface that is fitted around it by robust regression,
-// and the normals of these surfaces. More noise averages over wider neighbourhoods, and rounds sharper creases.
-// Normals are fitted by linear functions in the tangent plane. Neighbours that deviate from the last fit, such
-// as those beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross, "Feature preserving point
-// set surfaces based on non-linear kernel regression", 2009; they fit constant normals, which flattens curved parts.
-// The cloud must have normals, and its rho be greater than 0. The result is not usable once the progress is
-// cancelled.
+// Returns the points, in their order, each moved onto a surface that is fitted around it by robust
+// regression, and the normals of these surfaces. More noise averages over wider neighbourhoods, and rounds
+// sharper creases. Normals are fitted by linear functions in the tangent plane. Neighbours that deviate from
+// the last fit, such as those beyond a crease, get less weight. Source: Oeztireli, Guennebaud and Gross,
+// "Feature preserving point set surfaces based on non-linear kernel regression", 2009; they fit constant
+// normals, which flattens curved parts. The cloud must have normals, and its rho must be greater than 0. The
+// result is not usable once the progress is cancelled.
 CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& removal, const Progress* progress);
 
 // Returns the points that may be visible in a view once noise is removed: those that face the viewer or are turned

@@ -66,8 +66,8 @@ struct LocalSurface {
   }
 };
 
-// Neighbours that deviate from the last fit lose weight by Gaussians, exp(-factor * deviation^2).
-// Each factor is 1 / (2 variance).
+// The weight of a neighbour is multiplied by exp(-factor * deviation^2) for each of its two deviations from
+// the last fit. A factor is 1 / (2 variance).
 struct Tolerances {
   float normals;  // the factor for the deviation of normals
   float heights;  // the factor for the deviation of heights, which is in units of the radius
@@ -96,8 +96,9 @@ RELIEVO_INLINE Sums sums_of(std::span<const Neighbours> neighbours, const Frame&
   Sums s;
   for (const Neighbours& each : neighbours) {
     const Eight d = frame.turned(each.place), n = frame.turned(each.normal);
-    // The height of the surface at the point, predicted by a neighbour. It assumes that the chord between the two is
-    // perpendicular to the mean of their normals, which is exact on spheres, too.
+    // The height of the surface at the point, predicted by a neighbour. It is assumed that the chord from the
+    // neighbour to the surface at the point is perpendicular to the mean of the normals at both ends. This is
+    // exact on spheres, too.
     const Float8 up = (d.x * n.x + d.y * n.y + d.z * (n.z + 1)) * .5F, off = up - height;
     const Float8 inside = 1 - (d.x * d.x + d.y * d.y + d.z * d.z);
     const auto counts = (n.z > facing) & (inside > 0);
@@ -132,7 +133,7 @@ double total(const Float8& eight) {
   return sum;
 }
 
-// Returns the surface for these sums; their weight must be positive.
+// Returns the surface for these sums. The sum of the weights must be positive.
 LocalSurface solved(const Sums& sums) {
   const double w = total(sums.w), wu = total(sums.wu), wv = total(sums.wv), wuv = total(sums.wuv);
   const Mat3 moments{
@@ -220,7 +221,7 @@ CleanPoints without_noise(const SearchableCloud& scan, const NoiseRemoval& remov
 std::vector<Index> points_near_front(std::span<const Vec3f> normals, const Vec3f& towards_viewer,
                                      const Spacing& spacing) {
   constexpr float least_facing =
-      -.1F;  // cosine of 96 degrees; removing noise turns few points beyond this to the viewer
+      -.1F;  // cosine of 96 degrees; few normals with larger angles turn to the viewer when noise is removed
   constexpr std::uint8_t rings = 3;  // rings of neighbours; they reach farther than the fits of curvature do
   std::vector<std::uint8_t> level(normals.size(), 0);
   for (std::size_t i = 0; i < normals.size(); ++i)

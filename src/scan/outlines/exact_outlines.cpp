@@ -13,8 +13,8 @@ constexpr double grid_cell = 1.5;
 constexpr double most_distant = 1.5;   // largest distance of the exact outline from the sampled one
 constexpr double node_spacing = .25;   // distance between nodes; small, because nodes are exact
 constexpr double curve_spacing = .75;  // distance between points of the fair curve
-// Half the length of the part of the curve to which each point is fitted. At turns of the sampled outline, where the
-// exact outline has another direction, nodes are missing; the part is long enough to bridge these gaps.
+// The window of the fair curve, see FairCurveOptions. Nodes are missing at turns of the sampled outline,
+// where the exact outline has another direction. The window is wide enough to bridge these gaps.
 constexpr double exact_window = 1;
 // Largest distance by which a point of the curve is moved onto the exact outline.
 constexpr double most_moved = .5;

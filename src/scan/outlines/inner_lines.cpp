@@ -17,7 +17,7 @@ namespace {
 
 // Lengths in rho, the sampling distance.
 constexpr double change_radius = 3.0, stride = .75, line_window = 3, shortest = 8;
-constexpr double least_step = .3;  // in rho; a line with a smaller mean step is a crease
+constexpr double least_step = .3;  // in rho; a line with a smaller mean step in depth is a crease
 // The least distance of lines from each other and from outlines. Closer lines would leave too few points between
 // them.
 constexpr double apart = 2;
@@ -110,7 +110,7 @@ class ChangeFinder {
     return std::min(on_left, on_right) >= least_points;
   }
 
-  // The sums over the samples of one side, and the linear fit to their normals at the position of the line.
+  // The sums over the samples on one side of the line, and the linear fit to the normals of these samples.
   struct Part {
     Mat3 moments = Mat3::Zero(), products = Mat3::Zero();
     Vec3 normal = Vec3::UnitZ();  // fitted normal at the position of the line
@@ -290,7 +290,8 @@ class LineFinder {
     return edges;
   }
 
-  // Returns the direction of the line across which the surface changes most; zero if no line begins here.
+  // Returns the direction of the line across which the surface changes most; zero if no line begins at
+  // `place`.
   Vec2 direction_at(const Vec2& place) {
     constexpr int directions = 12;
     const std::vector<Index> near = finder_.around(place, 0);

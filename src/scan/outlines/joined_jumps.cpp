@@ -7,8 +7,10 @@
 namespace relievo {
 namespace {
 
-constexpr double widest_break = 4;     // widest gap that is closed, in rho
-constexpr double likeness = .5;        // least cosine between the directions of both ends and of the gap
+constexpr double widest_break = 4;  // widest gap that is closed, in rho
+// The least cosine between any two of three directions: those at the two ends, and that of the gap between
+// them.
+constexpr double likeness = .5;
 constexpr std::size_t end_points = 4;  // number of points that give the direction of an end
 
 // A place where a jump begins or ends, and the jump's direction there.
@@ -17,7 +19,7 @@ struct End {
   Vec2 place, direction;
 };
 
-// Finds for each open jump the jump that continues it, and joins chains of them.
+// Finds for each open jump the jump that continues it, and joins chains of such jumps.
 class JumpJoiner {
  public:
   JumpJoiner(std::vector<OutlineCurve>& outlines, double rho)

@@ -10,8 +10,8 @@ namespace relievo {
 
 // Returns the outlines of a mesh in view coordinates: the parts of its edges that separate the visible
 // surface from nothing, or from a surface more than `pixel` behind it. All triangles must be
-// counter-clockwise, as seen by the viewer. Where another surface hides the rest of an outline, its end is
-// accurate to half a pixel.
+// counter-clockwise, as seen by the viewer. Where another surface hides a part of an edge, the end of the
+// visible part is accurate to half a pixel.
 std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                           double pixel);
 

@@ -231,8 +231,8 @@ class NewSurface {
 // the same value.
 constexpr double least_turned = .75;
 
-// Returns whether there is a depth jump between two points and the surface behind ends there, with a normal
-// that leans towards the point in front.
+// Returns whether there is a depth jump between two points and the surface behind ends there. This surface
+// ends if its normal at `back` leans towards `front`.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
   if (!is_occlusion(surface, front, back)) return false;
   if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);
@@ -263,7 +263,8 @@ std::vector<std::uint8_t> gap_triangles(const Surface& surface) {
   return is_gap;
 }
 
-// Returns whether there are outlines. If there are none, only boundary.is_inside and crumbs change.
+// Does the work of put_points_on_outlines(), and returns true. If there are no outlines, returns false and
+// changes only boundary.is_inside and crumbs.
 bool outlines_replace_points(Surface& surface, PointMeasures& measures,
                              std::span<const OutlineSegment> known_outlines) {
   const ExactOutlines exact(known_outlines, surface.rho);

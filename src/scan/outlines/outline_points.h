@@ -7,12 +7,13 @@
 
 namespace relievo {
 
-// Finds the outlines of a triangulated surface, and replaces the points within 3 rho by rows of evenly spaced
-// points: on the silhouette, on both sides of each jump, and parallel to them. Normals, depths and measures
-// of new points are interpolated from points on the same side of the outlines. Points are added where
-// sampling leaves gaps inside the surface, and points outside are removed. Then the surface is triangulated
-// again, and its boundary is set to the points of the silhouette. `known_outlines`, exact outlines in view
-// coordinates, replace outlines found near them. Does nothing if there is no silhouette.
+// Finds the outlines of a triangulated surface, and replaces the points within 3 rho of them by rows of
+// evenly spaced points. The rows are on the silhouette, on both sides of each jump, and parallel to
+// silhouette and jumps. Normals, depths and measures of new points are interpolated from points on the same
+// side of the outlines. Points are added where sampling leaves gaps inside the surface, and points outside
+// are removed. Then the surface is triangulated again, and its boundary is set to the points of the
+// silhouette. `known_outlines`, exact outlines in view coordinates, replace outlines found near them. Does
+// nothing if there is no silhouette.
 void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines = {});
 

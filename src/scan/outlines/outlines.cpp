@@ -15,10 +15,10 @@
 namespace relievo {
 namespace {
 
-// Lengths and areas in rho and rho^2; rho is the sampling distance.
+// The unit of lengths is rho, the sampling distance. The unit of areas is rho^2.
 constexpr double least_piece = 20, hole_area = 4;
-// Jumps get a wider window than silhouettes because their nodes scatter more: the position where the front surface
-// ends has an error of one rho or more.
+// Jumps get a wider window than silhouettes, because the nodes of jumps scatter more. They say where the
+// surface in front ends, with an error of one rho or more.
 constexpr double point_spacing = .75, fair_window = 3, jump_window = 6;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
@@ -85,8 +85,8 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // If a surface turns away slowly, noise of its normals changes the estimated position much, so it gets less
-    // weight.
+    // If a surface turns away slowly, noise of its normals changes the estimated position much, so this
+    // position gets less weight.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);
@@ -140,7 +140,8 @@ struct Sides {
     return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
   }
 
-  // Returns the side that follows on the boundary of the same component of inside triangles.
+  // `side` is on the boundary of a component of inside triangles. Returns the side that follows it on this
+  // boundary.
   Index next_boundary(Index side) const {
     Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
     while (!is_boundary(turn)) {

@@ -41,8 +41,9 @@ class ExactOutlines {
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest position on an exact outline of this kind with about this direction. If no exact silhouette is
-  // near, a jump replaces it: where little of the surface behind a jump is visible, samples show a silhouette.
+  // Returns the nearest position on an exact outline of this kind with about this direction. If there is no
+  // such silhouette near, returns a position on a jump. Where little of the surface behind a jump is
+  // visible, the samples show a silhouette.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;

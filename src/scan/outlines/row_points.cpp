@@ -40,8 +40,9 @@ class RowMaker {
   }
 
  private:
-  // Returns a vector to the left of an outline at one of its points. It has unit length, but is longer where the
-  // outline turns, so that a parallel curve through its end has distance 1.
+  // Returns a vector to the left of an outline at one of its points. Its length is 1 where the outline is
+  // straight. At a turn it is longer, so that the lines through its end, parallel to the edges before and
+  // after the point, are at distance 1 from these edges.
   Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
@@ -239,8 +240,8 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. A prediction assumes that the chord of a
-// circle is perpendicular to the mean of the normals at its ends, so it is exact for constant curvature.
+// Returns the mean of the depths that the nearest points predict. A prediction assumes that the chord between
+// the two points is perpendicular to the mean of their normals, which is exact on circles.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

@@ -16,7 +16,7 @@ enum class Place : std::uint8_t {
   silhouette,  // a point on the silhouette
   front,       // front, back: on the upper or the lower edge of the wall at a jump
   back,
-  row,  // a point in a row farther from an outline, or inside a gap
+  row,  // a point in another row beside an outline, or inside a gap
 };
 
 inline constexpr Index no_row = no_index;
@@ -35,7 +35,8 @@ inline constexpr double half_wall = .15, last_row = 2.95;
 // The least n_z of normals at new points, so they are tilted by at most 88.9 degrees.
 inline constexpr double least_nz = .02;
 
-// Returns the unit normal with this (n_x, n_y), shortened if n_z would be less than least_nz.
+// Returns the unit normal whose (n_x, n_y) is `lean`. If n_z would be less than least_nz, `lean` is
+// shortened.
 inline Vec3 normal_with(Vec2 lean) {
   const double most = std::sqrt(1 - least_nz * least_nz);
   if (lean.norm() > most) lean *= most / lean.norm();
@@ -45,11 +46,11 @@ inline Vec3 normal_with(Vec2 lean) {
 // Returns the points of all rows, and adds them to `taken`, whose cells must be at least 0.7 rho wide. Points on the
 // silhouette come first, then points on both sides of each jump, then parallel rows in the order of their distance
 // from the outline. A point is left out if another outline is nearer to it than its own outline, or lies between the
-// two, or if a point of an earlier row is too close.
+// point and its own outline. It is also left out if a point of an earlier row is too close.
 std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
                                  double rho, PointSet& taken);
 
-// Values at the surface's points that are not needed any more once the boundary is found.
+// Values at the surface's points. They are not needed any more once the boundary is found.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature; 0 at hole-fill points
   std::vector<float> spacing;  // Spacing::local for clouds of uneven density, else empty

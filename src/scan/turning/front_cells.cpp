@@ -13,7 +13,8 @@
 namespace relievo {
 namespace {
 
-// A point drawn as a disc in view coordinates. The unit is the width of a cell, the origin the corner of the grid.
+// A point drawn as a disc in view coordinates. The unit is the width of a cell. The origin is the corner of
+// the grid.
 struct FrontDisc {
   // Radius, in spacings, of the discs that hide points behind them.
   static constexpr float hiding_radius{ScanLimits::disc_radius};
@@ -71,8 +72,8 @@ RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
   return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
 }
 
-// Calls f(x, row, dy) for runs of eight cells of a band. The runs contain all cells whose centres are within
-// the radius of the disc's centre in the view plane. `dy` is the row's distance from the disc's centre.
+// Calls f(x, row, dy) for runs of eight cells of a band. The runs contain all cells whose centres are at most
+// `radius` away from the disc's centre in the view plane. `dy` is the row's distance from the disc's centre.
 template <typename F>
 RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
   const float y = disc.place.y() - static_cast<float>(band.first_row());
@@ -156,7 +157,7 @@ void DiscBand::write(FrontCells& cells) const {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-constexpr float least_cell = .6F;       // least width, in spacings; smaller cells would show no more detail
+constexpr float least_cell = .6F;       // least cell width, in spacings; smaller cells show no more detail
 constexpr float steepest = 20;          // largest slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 

@@ -159,8 +159,8 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
-// Returns the boundary. A triangle is inside if the front covers at least three of its centre and the
-// midpoints of its three sides.
+// Returns the boundary. A triangle is inside if the front covers at least three of four positions: the
+// centre of the triangle, and the midpoints of its sides.
 Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
   const auto is_covered = [&](const Vec2& p) {
     const Vec2f at = (p.cast<float>() - front.corner) / front.cell;

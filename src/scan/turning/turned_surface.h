@@ -19,8 +19,8 @@ struct TurningScan {
   Vec3 centre = Vec3::Zero();           // see Surface::centre
   double rho = 0, diagonal = 0;
 
-  // Returns the scan without the points on and behind the support plane of `surface`, a surface of this scan
-  // that has one.
+  // `surface` is a surface of this scan that has a support plane. Returns the scan without the points on this
+  // plane and the points behind it.
   TurningScan without_plane(const Surface& surface) const;
 };
 
@@ -29,7 +29,7 @@ struct TurnedSurface {
   FrontCells front;  // drawn from all points of the scan
 };
 
-// Returns a surface of about `points` points in that view: one point for every few cells, more along
+// Returns a surface of about `points` points in the view: one point for every few cells, more along
 // silhouettes and depth jumps. Errors: kind geometry if the view shows no area; kind cancelled.
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress = nullptr);
