@@ -36,8 +36,8 @@ struct LiveFrame {
   bool is_new = false;  // false if the frame is the same as the previous one
 };
 
-// The request for a frame. A quick frame usually takes one or two solves. Its height may differ from a requested
-// height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
+// The request for a frame. A quick frame usually takes one or two solves. Its height may differ from a
+// requested height by up to 3 %. LiveFrame::stretch compensates for this difference in pictures.
 struct FrameWish {
   std::optional<double> u;  // u of Compression; if given, it replaces a requested height
   bool is_quick = false;

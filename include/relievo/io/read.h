@@ -93,8 +93,9 @@ struct PictureChannels {
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
-// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
-// commas, semicolons or white space. Errors: kind option for any other text, or a focal length that is not positive.
+// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row. Commas,
+// semicolons or white space separate the numbers. Errors: kind option for any other text, and for a focal
+// length that is not positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
 // The size of a scan, determined from the beginning of the file, so that the needed memory is known before

@@ -28,7 +28,7 @@ struct Picture {
 // Without rotation it shows the plate from the front.
 struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
-  double zoom = 1;          // 1 if the plate fits into the picture
+  double zoom = 1;          // at zoom 1 the plate just fits into the picture
   Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, at the centre of the picture
 
   bool operator==(const Camera&) const = default;
@@ -95,15 +95,15 @@ class FrameRenderer {
   FrameRenderer(FrameRenderer&&) noexcept;
   ~FrameRenderer();
 
-  // Overwrites the picture; it gets no pixels if the size is out of range. `shown` has an entry for each
-  // point of the model's surface. After cancellation the picture is unfinished.
+  // Overwrites the picture; it gets no pixels if options.has_size() is false. `shown` has an entry for
+  // each point of the model's surface. After cancellation the picture is unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
   // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
-  // or as a die. Uses only mm_per_unit of the lengths in `options`. There must be no ornaments, and a plate
-  // without ground must have a plane base and no wrap. The plate is kept for the next picture. If only the
-  // height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
+  // or as a die. Of the lengths in `options`, only mm_per_unit is used. There must be no ornaments, and a
+  // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
+  // the height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
   // bevel. Errors: those of make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);

@@ -125,9 +125,9 @@ Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& option
 // Returns the plate bent around its wrap: its ground is on the wrap, its bottom is the other side of the
 // shell, and its walls point towards the axis. Its bounding box begins at the origin. If a rectangle goes all
 // the way around a cylinder or a cone, its two sides are joined. `plate` must be the result of make_plate()
-// with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief would reach
-// the axis, or if there is no wrap; also, for a plate that goes all the way around, if its outline is not a
-// rectangle, its axis is slanted, or it has a rim.
+// with the same options. Errors: those of plate_wrap(); kind option if there is no wrap, or if the shell or
+// the relief would reach the axis. A plate that goes all the way around is also an error of kind option if
+// its outline is not a rectangle, its wrap has a slanted axis, or it has a rim.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().

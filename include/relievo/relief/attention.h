@@ -1,4 +1,5 @@
-// Estimates which parts of a model viewers look at, from its curvature. Tested by tests/relief/attention_test.cpp.
+// Estimates which parts of a model viewers look at, from its curvature. Tested by
+// tests/relief/attention_test.cpp.
 #pragma once
 
 #include <cstdint>

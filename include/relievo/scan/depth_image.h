@@ -64,7 +64,8 @@ struct DepthOptions {
   DepthValues values = DepthValues::depth;
   int channel = 0;  // number of the channel to read, from 1; 0 for the only channel
   std::optional<DepthCamera> camera;
-  // Without a camera: the depth from the nearest to the farthest point, as a share of the picture's longer side.
+  // Without a camera: the depth from the nearest to the farthest point, as a share of the picture's longer
+  // side.
   double range = .5;
   // The background lies behind a depth jump all around the figure. `automatic` keeps the background of images
   // with a camera and of images of heights. If there is no such jump, `drop` removes far depths, provided
