@@ -41,7 +41,7 @@ struct NumericOptions {
   std::optional<double> draft_deg;       // least angle between every triangle and the vertical; default: none
   std::optional<double> boundary_width;  // width of the soft rim, in rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height for steps at depth jumps, see Shape
-  std::optional<double> planes;          // least step between a model's parts, see Shape and effective_planes()
+  std::optional<double> planes;          // least step between a model's parts, see Shape, effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
