@@ -37,7 +37,7 @@ Vec2 middle_of(const OrnamentFrame& frame) {
   return Box::of(frame.inner).centre().head<2>();
 }
 
-// Returns the radius of the largest circle inside the rim around the centre.
+// Returns the radius of the largest circle around the centre that is inside the rim.
 double radius_within(const OrnamentFrame& frame) {
   const Vec2 middle = middle_of(frame);
   double radius = std::numeric_limits<double>::infinity();
@@ -107,8 +107,8 @@ class TextPlacer {
   }
 
  private:
-  // Returns the distance between capitals and rim that centres the text in the margin without its borders. Parts of
-  // letters above the capitals and below the baseline count as text.
+  // Returns the distance between capitals and rim that centres the text in the margin without its borders.
+  // Parts of letters above the capitals and below the baseline count as text.
   double usual_inset() const {
     constexpr double usual_overshoot = .1;
     Box box;

@@ -14,7 +14,8 @@
 namespace relievo {
 namespace {
 
-// A cloud keeps all its points if its sampling distance, divided by that of the scene, is between these limits.
+// A cloud keeps all its points if its sampling distance, divided by that of the scene, is between these
+// limits.
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
@@ -150,7 +151,8 @@ double shown_area(const Mesh& mesh, const View& view) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    // The factor 1/4 is the product of 1/2 for a triangle and 1/2 because half of a closed mesh faces the viewer.
+    // The factor 1/4 is the product of 1/2 for a triangle and 1/2 because half of a closed mesh faces the
+    // viewer.
     sum += std::abs(p.cross(q).dot(to_viewer)) / 4;
   }
   return sum;
@@ -183,7 +185,8 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
-    // Each model has a scale factor of its own, so depths are not proportional to the values of a file any more.
+    // Each model has a scale factor of its own, so depths are not proportional to the values of a file any
+    // more.
     if (placed.cloud.units_per_value) all.units_per_value = 0;
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {
