@@ -94,9 +94,9 @@ class LiveModel {
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
-  // Draws the frame on the plate of the options. The picture does not show ornaments, simplification and the
-  // marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base and
-  // no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
+  // Draws the frame on the plate of the options. The picture shows neither ornaments nor simplification nor
+  // the marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base
+  // and no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
   Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
                                      const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;

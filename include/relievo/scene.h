@@ -75,8 +75,8 @@ struct PlacedModel {
 // - Otherwise the models are arranged for the view: side by side from left to right on a common ground line,
 // with their centres at the same depth, and with gaps of 8 % of their height. The first model keeps its size
 // and, unless it is rotated, its position. Each other model is scaled to the height of the first. If it would
-// then be wider than one and a half times that height, it is scaled to that width instead. Its `scale`
-// multiplies this size: with 0.5 it is half as high as the first.
+// then be wider than one and a half times that height, it is scaled to that width instead. The `scale` of
+// its pose multiplies this size: with 0.5 it is half as high as the first.
 // Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], and for angles and
 // translations that are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);

@@ -50,9 +50,9 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane. The first row is the lowest. Cells are NaN where the scan has no points and along silhouettes
-// and depth jumps.
+// Detail of the normals that is finer than the points of a coarse surface: -(n_x, n_y) on a grid of square
+// cells over the view plane. The first row is the lowest. Cells are NaN where the scan has no points and
+// along silhouettes and depth jumps.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;
@@ -70,7 +70,7 @@ struct Shown {
   // points, see FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
-  // If not empty, colours the relief from blue to orange: a share in [0, 1] per point.
+  // If not empty: a share in [0, 1] per point, which colours the relief from blue (0) to orange (1).
   std::span<const float> tint = {};
 };
 

@@ -103,12 +103,12 @@ class ReliefModel {
 
   // Returns the relief whose height, including detail, is `height`. Searches for the u of the compression
   // that gives this height. beta, gamma and the slope limit stay as requested, which is the intent of
-  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps, of at most
-  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. Models
-  // of Method::paper have no such steps, and the search changes beta, too, if Shape::is_beta_free is set; see
-  // search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no relief
-  // has that height; the message states the largest possible height in millimetres, for `unit_mm` millimetres
-  // per unit. Kind cancelled.
+  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps add the
+  // missing height. Each of these steps is at most as deep as the jump in the model. Shape::steps of the
+  // result is the share of these steps. Models of Method::paper have no such steps, and the search changes
+  // beta, too, if Shape::is_beta_free is set; see search_paper_height() in the source file
+  // src/relief/paper_relief.h. Errors: kind geometry if no relief has that height; the message states the
+  // largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 
