@@ -15,8 +15,8 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Default sizes of ornaments. The size of a text is a fraction of the margin without its borders. The size of
-// a border is a fraction of the whole margin.
+// Default sizes of ornaments. The size of a text is a fraction of that part of the margin that has no
+// borders. The width of a border, and its distance from the rim, are fractions of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // as a fraction of the text's size
 constexpr double below_rim = .8;     // largest default height, as a fraction of the rim's height

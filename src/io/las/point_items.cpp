@@ -1,5 +1,5 @@
-// Decodes the parts of points ("items") as LASzip has written them since 2011: version 2, or version 1 of
-// wave packets.
+// Decodes the parts of points ("items") as LASzip has written them since 2011. In the formats 0 to 5 these
+// are items of version 2, or version 1 for wave packets; in the formats 6 to 10 they have version 3 or 4.
 #include "io/las/point_items.h"
 
 #include <algorithm>
