@@ -74,8 +74,8 @@ struct Shown {
   std::span<const float> tint = {};
 };
 
-// The size of a piece, and the position of its relief's middle relative to the piece's middle. For a piece
-// that is bent around a wrap, the position is that in the flat plate.
+// The size of the plate with its relief, and the position of the relief's middle relative to the plate's
+// middle. If the plate is bent around a wrap, the position is that before bending.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();

@@ -109,7 +109,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the
-// bottom has as many points and triangles. Triangles that are connected only by a corner, and parts smaller
+// bottom has as many of both as the front. Triangles that are connected only by a corner, and parts smaller
 // than a thousandth of the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a

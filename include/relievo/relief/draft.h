@@ -1,5 +1,5 @@
-// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. Follows
-// stages 12 and 14.
+// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. This
+// step follows stages 12 and 14.
 #pragma once
 
 #include <span>

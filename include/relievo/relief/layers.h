@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// The x and y of one layer of a normal. Each is stored as an integer in units of 1/16384 and clamped to [-2,
-// 2], which needs half the memory of two floats.
+// The x and y of one layer of a normal. Each is clamped to [-2, 2] and stored as an integer in units of
+// 1/16384. This needs half the memory of two floats.
 class LayerXy {
  public:
   static constexpr float unit = 0x1p-14F;

@@ -31,8 +31,8 @@ struct Relief {
   Shape shape;                  // the shape of the relief
 };
 
-// With more visible points, Mode::automatic means subspace, because exact frames would take more than 40 ms
-// on two cores.
+// If a surface has more visible points than this, Mode::automatic means subspace, because exact frames would
+// take more than 40 ms on two cores.
 inline constexpr std::size_t most_exact_points = 1'500'000;
 
 // Returns exact or subspace for `automatic`, depending on the number of points; returns any other mode

@@ -77,8 +77,8 @@ inline constexpr std::size_t most_strokes = 10'000, most_stroke_points = 100'000
 
 // Returns the strokes in a JSON array such as
 //   [{"brush": "soften", "amount": 0.5, "radius": 3, "points": [[0, 1, 2], [1, 1, 2]], "name": "cheek"}].
-// Amount, softness, name and muted are optional. An area is "line" without the key "area"; a lasso has at
-// least three points and a "direction" [x, y, z], a region has one point, and perhaps a "tolerance". An empty
+// Amount, softness, name and muted are optional. Without the key "area", the area is "line". A lasso has at
+// least three points and a "direction" [x, y, z]; a region has one point, and perhaps a "tolerance". An empty
 // text means no strokes. Errors: kind option, naming the stroke and what was expected.
 Result<Strokes> parse_strokes(std::string_view json);
 

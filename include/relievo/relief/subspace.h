@@ -27,9 +27,9 @@ std::vector<double> reference_heights(const Surface& surface, const HeightSystem
 
 // Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
 // the reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by the
-// reference height; both are solved for on the control points. The offset is the part of the compressed
-// height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel B-splines extend
-// ratio and offset to all points.
+// reference height. The system of the control points is solved for both heights. The offset is the part of
+// the compressed height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel
+// B-splines extend ratio and offset to all points.
 //
 // The heights differ from those of exact mode by about 1 % of the relief's height (root mean square), or by 1
 // to 4 % in layered reliefs. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run
