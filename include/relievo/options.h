@@ -38,7 +38,7 @@ struct NumericOptions {
   double light_contrast = .8;                // factor of the model's local contrast, see ReliefLight
   double attention = 0;                      // exponent of the attention, see Shape
   double colour_mm = 0;                      // depth by which dark lines of the scan are lowered
-  std::optional<double> draft_deg;       // least angle between every triangle and the vertical; default: none
+  std::optional<double> draft_deg;       // least angle between any triangle and the vertical; default: none
   std::optional<double> boundary_width;  // width of the soft rim, in rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height for steps at depth jumps, see Shape
   std::optional<double> planes;          // least step between a model's parts, see Shape, effective_planes()
@@ -47,7 +47,7 @@ struct NumericOptions {
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
   std::optional<double> rim_mm;          // width of a raised rim along the outline; default: no rim
-  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if its bevel fits
+  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if the bevel fits
   std::optional<double> rim_bevel_mm;    // width of the rim's bevel; default: 0.3 of the rim's height
   std::optional<double> text_mm;         // height of the text's capital letters; default: 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament

@@ -101,8 +101,8 @@ std::string takers_of_room(const ReliefOptions& options) {
   return cat("margin", last.empty() ? " and rim" : ", rim", last);
 }
 
-// Returns an error if the options name a font or ornament file that was not read, because nothing replaces
-// the file.
+// Returns an error if the options name a font or ornament file whose contents were not read. No default
+// replaces such a file.
 Result<void> check_files(const ReliefOptions& options) {
   if (!options.font_name.empty() && !options.font)
     return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));

@@ -1,5 +1,5 @@
-// Makes height maps of a solid's front. Their values are grey levels, for machines and for people who look at
-// them, or heights in millimetres.
+// Makes height maps of a solid's front. The values of a height map are either grey levels or heights in
+// millimetres.
 #pragma once
 
 #include <array>

@@ -17,9 +17,9 @@ struct SimplifiedMesh {
 
 struct SimplifyOptions {
   double tolerance_mm = .01;  // > 0
-  // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A triangle
-  // above the limit must be within a millionth of a millimetre of the front. So only very thin triangles can
-  // be much steeper than the front.
+  // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A triangle that
+  // is steeper than the limit must be within a millionth of a millimetre of the front. So only very thin
+  // triangles can be much steeper than the front.
   double max_slope = std::numeric_limits<double>::infinity();
   // Limit of the number of triangles. When it is reached, the error may exceed the tolerance. There may be
   // more triangles than the limit, because some points are always kept, see simplify().

@@ -26,7 +26,7 @@ struct Measures {
 
   double halo = 0;                 // standard deviation of heights in the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels steeper than 80 degrees
-  double height_used = 0;          // height between the 1st and the 99th percentile, as a share of `height`
+  double height_used = 0;          // 99th minus 1st percentile of the heights, as a share of `height`
   double jump_step = 0;            // largest step at a depth jump of the model, as a share of `height`
   double rim_step = 0;             // largest height of points next to the silhouette, as a share of `height`
   double silhouette_fray_deg = 0;  // scatter of the triangles' tilt along the silhouette, see docs/quality.md

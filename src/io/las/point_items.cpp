@@ -55,7 +55,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // otherwise green and blue equal red
+  if (!has(6)) {  // green and blue equal red
     colour[1] = colour[2] = colour[0];
     return;
   }
