@@ -60,8 +60,8 @@ struct FormedFront {
   std::size_t full_triangles = 0;      // number of triangles of the front before simplification
 };
 
-// Returns the heights in millimetres of the base under the points of a front of Form::relief; no heights for
-// a plane. Errors: those of plate_base().
+// Returns the height in millimetres of the base under each point of a front, whose form must be Form::relief.
+// Returns no heights if the base is a plane. Errors: those of plate_base().
 Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
 
 // Returns the surface's triangles as a front in millimetres, with the given heights of its points.

@@ -151,8 +151,7 @@ double shown_area(const Mesh& mesh, const View& view) {
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    // The factor 1/4 is the product of 1/2 for a triangle and 1/2 because half of a closed mesh faces the
-    // viewer.
+    // The cross product gives twice the area of a triangle, and only half of a closed mesh faces the viewer.
     sum += std::abs(p.cross(q).dot(to_viewer)) / 4;
   }
   return sum;

@@ -11,8 +11,8 @@
 
 namespace relievo {
 
-// Returns, per point, whether it is on an edge of a tile, where the relief does not go down to the ground:
-// the point is on a straight side of the surface's hull, and not at a hole.
+// Returns, per point, whether it is on an edge of a tile. There the relief does not go down to the ground. A
+// point is on such an edge if it is on a straight side of the surface's hull, and not at a hole.
 std::vector<std::uint8_t> tile_edges(const Surface& surface);
 
 // Returns the relief whose heights are `options.mm_per_value` times the surface's values above the ground.
