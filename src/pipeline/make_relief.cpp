@@ -50,8 +50,8 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Reports the heights of the front that the tool cuts. They differ from the heights of the relief, because the
-// tool leaves material in narrow and deep places.
+// Reports the heights of the front that the tool cuts. They differ from the heights of the relief, because
+// the tool leaves material in narrow and deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)

@@ -22,8 +22,8 @@ std::string readable_formats();
 // Returns the file name extensions of readable files, in lower case with the dot.
 std::vector<std::string> readable_endings();
 
-// A function that returns the bytes of another file that the file being read refers to, such as a buffer of a
-// glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
+// A function that returns the bytes of another file, to which the file being read refers, such as a buffer of
+// a glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
 // function returns an error, the reader reports only that it cannot read that file.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 

@@ -42,7 +42,7 @@ struct RenderOptions {
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate; not zero
   bool has_shadows = true;        // whether the relief casts shadows on itself, and hollows are darker
-  bool is_fine = false;           // if true: nine samples per pixel and finer shadows, five times slower
+  bool is_fine = false;           // nine samples per pixel and finer shadows; takes five times as long
 
   // Returns whether width and height are in [1, 8192]. If not, pictures are empty.
   bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }

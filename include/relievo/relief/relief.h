@@ -120,8 +120,8 @@ class ReliefModel {
   std::unique_ptr<State> state_;
 };
 
-// Sets the heights of the models of a scene that have a requested height of their own, see Pose::height. This
-// is the last step of a relief. ReliefModel does it itself; baselines need this call.
+// Changes the heights of those models of a scene for which Pose::height requests a height. This is the last
+// step of a relief. ReliefModel does it itself; baselines need this call.
 void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo
