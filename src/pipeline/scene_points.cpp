@@ -134,7 +134,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area, in the view plane, of the points that face the viewer, including hidden ones.
+// Returns the area, in the view plane, of those points that face the viewer. Hidden points count, too.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -144,8 +144,8 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// Returns the area, in the view plane, of the triangles of a closed mesh that face the viewer, including
-// hidden ones. The orientation of triangles is ignored.
+// Returns the area, in the view plane, of those triangles of a closed mesh that face the viewer. Hidden
+// triangles count, too. The orientation of triangles is ignored.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
