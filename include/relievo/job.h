@@ -36,8 +36,8 @@ struct LiveFrame {
   bool is_new = false;  // false if the frame is the same as the previous one
 };
 
-// The request for a frame. A quick frame usually takes one or two solves. Its height may differ from a requested
-// height by up to 3 %, for which LiveFrame::stretch compensates in pictures.
+// The request for a frame. A quick frame usually takes one or two solves. Its height may differ from a
+// requested height by up to 3 %. LiveFrame::stretch compensates for this difference in pictures.
 struct FrameWish {
   std::optional<double> u;  // u of Compression; if given, it replaces a requested height
   bool is_quick = false;
@@ -94,9 +94,9 @@ class LiveModel {
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
-  // Draws the frame on the plate of the options. The picture does not show ornaments, simplification and the
-  // marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base and
-  // no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
+  // Draws the frame on the plate of the options. The picture shows neither ornaments nor simplification nor
+  // the marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base
+  // and no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
   Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
                                      const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;

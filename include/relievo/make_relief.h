@@ -59,10 +59,10 @@ struct ReliefReport : ScanReport {
   double below_ground_mm = 0;  // the part of height_mm below the flat ground; for a die, all of height_mm
   double steepest_deg = 0;     // steepest slope of the front's triangles, with corners in single precision
 
-  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The map is
-  // exact in x and y. In z it keeps the uncompressed depth of the model. The model's lowest visible point is
-  // mapped to the ground or, with a curved base, to the ground in the plate's middle. For a mirrored form
-  // `rotation` includes the reflection.
+  // Maps a point p of the cloud to coordinates of the solid in mm: scale * rotation * p + offset. The
+  // resulting x and y are those of the point in the solid. The resulting z is a depth of the uncompressed
+  // model, not a height of the relief. The model's lowest visible point is mapped to the ground or, with a
+  // curved base, to the ground in the plate's middle. For a mirrored form `rotation` includes the reflection.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
@@ -128,10 +128,11 @@ Result<void> check_model(const ReliefModel& model, const ReliefOptions& options)
 Result<void> check_rim(const ReliefOptions& options, double height_mm);
 
 // Samples the points of a file for the view, prepares their model, and makes its relief. scene.h has the same
-// function for several files. Errors: also those of sample_for_view() and prepare().
+// function for several files. Errors: those of sample_for_view(), of prepare(), and of make_relief() for a
+// model.
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Does the same for a cloud.
+// Makes the relief of a cloud in memory; otherwise the same as the function for a file.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape for the options. If the relief must have a requested or default height, the search for

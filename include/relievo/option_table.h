@@ -68,7 +68,7 @@ struct OptionRow {
   // The value in a new document of the studio, if that differs from the default.
   std::string_view in_studio = {};
   bool is_stated = false;  // whether the studio writes it into projects even if it is the default
-  bool is_hidden = false;  // true if the studio's page has no control for it, but keeps it in projects
+  bool is_hidden = false;  // true if the studio keeps it in projects, but has no control for it
   OptionAccess access = {};
 
   bool is_number() const { return min <= max && max < std::numeric_limits<double>::infinity(); }

@@ -27,7 +27,7 @@ namespace relievo {
 struct NumericOptions {
   std::optional<double> width_mm;     // longer side of the relief, without margin; see effective_width_mm()
   std::optional<double> diameter_mm;  // diameter of a round plate; default: the smallest that fits
-  std::optional<double> height_mm;    // lowest to highest point of the front; see effective_height_mm()
+  std::optional<double> height_mm;    // front's height, lowest to highest point; see effective_height_mm()
   std::optional<double> height_of_diagonal;  // height as a share of the diagonal L_d; replaces height_mm
   std::optional<double> mm_per_value;        // vertical scale, see relief_of_values(); default: none
   std::optional<double> ground_value;        // the value at the ground; only with mm_per_value
@@ -38,16 +38,16 @@ struct NumericOptions {
   double light_contrast = .8;                // factor of the model's local contrast, see ReliefLight
   double attention = 0;                      // exponent of the attention, see Shape
   double colour_mm = 0;                      // depth by which dark lines of the scan are lowered
-  std::optional<double> draft_deg;       // least angle between every triangle and the vertical; default: none
+  std::optional<double> draft_deg;       // least angle between any triangle and the vertical; default: none
   std::optional<double> boundary_width;  // width of the soft rim, in rho; see effective_boundary_width()
   double steps = 0;                      // least share of the height for steps at depth jumps, see Shape
-  std::optional<double> planes;          // least step between parts, see Shape; see effective_planes()
+  std::optional<double> planes;          // least step between a model's parts, see Shape, effective_planes()
   double control_points = static_cast<double>(usual_control_points);  // approximate number in subspace mode
   double corner_mm = 5;                  // radius of the corners of Outline::round
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
   std::optional<double> rim_mm;          // width of a raised rim along the outline; default: no rim
-  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if its bevel fits
+  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if the bevel fits
   std::optional<double> rim_bevel_mm;    // width of the rim's bevel; default: 0.3 of the rim's height
   std::optional<double> text_mm;         // height of the text's capital letters; default: 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament
@@ -100,8 +100,9 @@ struct ReliefOptions : NumericOptions {
   // Returns the given method. Without one, returns linear if a vertical scale is given, the paper's method if
   // alpha is given, and layered otherwise.
   Method effective_method() const;
-  // Returns the given height. Without one, returns nothing for a lithophane, for a vertical scale, and for
-  // the paper's method, whose height follows from the shape; otherwise usual_height_mm().
+  // Returns the given height, if there is one. Otherwise, returns nothing in three cases: for a lithophane,
+  // for a vertical scale, and for the paper's method, whose height follows from the shape. In all other
+  // cases, returns usual_height_mm().
   std::optional<double> effective_height_mm() const;
   // Returns the given height. Without one, returns 2.4 mm for a lithophane and 5 % of the width for other
   // forms (docs/decisions/default-height.md).

@@ -74,9 +74,9 @@ struct PlacedModel {
 // - A single model does not move.
 // - Otherwise the models are arranged for the view: side by side from left to right on a common ground line,
 // with their centres at the same depth, and with gaps of 8 % of their height. The first model keeps its size
-// and, unless it is rotated, its position. Each other model is scaled to the height of the first, or less if
-// it would be wider than one and a half times that height. Its `scale` multiplies this size: with 0.5 it is
-// half as high as the first.
+// and, unless it is rotated, its position. Each other model is scaled to the height of the first. If it would
+// then be wider than one and a half times that height, it is scaled to that width instead. The `scale` of
+// its pose multiplies this size: with 0.5 it is half as high as the first.
 // Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], and for angles and
 // translations that are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
@@ -99,17 +99,17 @@ double usual_points(const Scene& scene);
 
 // Returns the points of all placed models, in the scene's axes. `points` is the wanted number of points, by
 // default usual_points().
-// - All meshes together give about the wanted number of points, and none on hidden parts. Clouds keep all
-// points except outliers.
+// - All meshes together give about the wanted number of points, and none on hidden parts. Outliers of clouds
+// are left out.
 // - All models get about the same sampling distance. A scene with meshes gets the distance at which the
 // wanted number of points is visible. A scene of only clouds gets that distance or the distance of the finest
-// cloud, whichever is larger. Finer clouds are subsampled to this distance. Much coarser clouds keep only
-// their visible points, and points are added between these.
+// cloud, whichever is larger. Clouds that are finer than the scene are subsampled to this distance. Clouds
+// that are much coarser keep only their visible points, and points are added between these.
 // - Normals are estimated or oriented separately for each model.
 // - If any model has colours, models without colours become white.
 // - A single cloud that is not moved keeps all points of its file but outliers.
-// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
-// naming the model; kind cancelled.
+// Errors: those of place_models() and sample_mesh(); kind geometry, naming the model, if a cloud has fewer
+// than 4 points or if most of its points are equal; kind cancelled.
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 

@@ -20,9 +20,10 @@ struct SessionStatus {
   double fraction = 0;  // share of the preparation that is done, in [0, 1]
   // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
   std::optional<Error> error;
-  // Whether the points are measured and the first coarse relief, if wanted, is made. This is long before the
-  // first model of the points is ready. The first coarse relief of a large cloud is made before all points
-  // are measured; until they are, turn() to another view returns an error of kind `cancelled`.
+  // Whether turn() can return a coarse relief: the points are measured or the first coarse relief is made,
+  // and no first coarse relief is being made. This is long before the first model of the points is ready. The
+  // first coarse relief of a large cloud is made before all points are measured. Until they are measured,
+  // turn() to any other view returns an error of kind `cancelled`.
   bool can_turn = false;
 };
 

@@ -27,7 +27,8 @@ bool is_ambiguous(std::string_view number) {
 }
 
 // Removes an unsigned number from the beginning of the text. Returns the number, or nothing if the text does
-// not begin with a finite number. Uses parse_double(), because a locale might allow only decimal commas.
+// not begin with a finite number. Uses parse_double(), which does not depend on the locale, because a locale
+// might allow only decimal commas.
 std::optional<double> take_number(std::string_view& text) {
   std::string digits(text);
   std::ranges::replace(digits, ',', '.');

@@ -68,7 +68,7 @@ double exact_value(const Decimal& number) {
   return number.is_negative ? -value : value;
 }
 
-// Reads "inf", "infinity", "nan" and "nan(...)", in any case, after the sign.
+// Reads "inf", "infinity", "nan" and "nan(...)", in upper or lower case, after the sign.
 ParsedNumber parse_special(std::string_view text, std::size_t sign) {
   const std::string copy(text.substr(0, 64));
   const char first = copy.size() > sign ? copy[sign] : ' ';

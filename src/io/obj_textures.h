@@ -18,8 +18,8 @@ class ObjTextures {
   void take_coordinates(Words& words);          // reads a vt line
   void take_libraries(std::string_view names);  // reads an mtllib line
   void take_material(std::string_view name);    // reads a usemtl line, for the following faces
-  // `vertex` is the vertex of a face's corner; `word` is the rest of the corner, such as "/2/3". A vertex
-  // gets the colour of its first corner that has a texture.
+  // Processes a corner of a face. `vertex` is the corner's vertex; `word` is the rest of the corner, such as
+  // "/2/3". A vertex gets the colour of its first corner that has a texture.
   void take_corner(Index vertex, std::string_view word);
 
   // Adds the colours of the textures to the cloud, which has points but no colours. If that is impossible,

@@ -246,8 +246,8 @@ class BinaryRows {
 
   bool is_big_endian() const { return format_ == PlyFormat::big_endian; }
 
-  // Calls use(property index, pointer to its first byte) for each single value of the next row, and
-  // use_list(property index, pointer to its first byte, length) for each list.
+  // Calls use(property index, address of the value) for each single value of the next row, and
+  // use_list(property index, address of the first value, length) for each list.
   template <typename Use, typename UseList>
   Result<void> walk_row(const PlyElement& element, Use&& use, UseList&& use_list) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {

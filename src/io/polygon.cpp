@@ -20,7 +20,8 @@ namespace {
 // 0, because files round collinear corners to floats.
 constexpr double rounding = 1e-6;
 
-// Limit for non-convex polygons, for which the time is quadratic.
+// The largest number of corners of a non-convex polygon that is triangulated. It is limited, because the time
+// is quadratic.
 constexpr std::size_t most_corners = 10'000;
 
 std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {

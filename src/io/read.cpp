@@ -100,9 +100,9 @@ std::uint64_t big_endian_32(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-// Estimates the size of a scan from 20 bytes per point. The estimate is more often too large than too small.
-// A text with three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two triangles
-// per vertex has about 60 bytes per vertex, a glTF 36.
+// Estimates the size of a scan, assuming 20 bytes per point. The estimate is more often too large than too
+// small. A text with three coordinates has at least 6 bytes per point, usually 20 to 30. An OBJ with two
+// triangles per vertex has about 60 bytes per vertex, a glTF 36.
 ScanSize estimate(const io::Source& head, std::uint64_t file_bytes) {
   constexpr std::uint64_t bytes_per_point = 20;
   ScanSize size{file_bytes / bytes_per_point, 0, 0};

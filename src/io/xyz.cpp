@@ -83,7 +83,9 @@ class XyzReader {
   SourceLines lines_;
   std::vector<std::size_t> slots_;  // per column: index in values_; most_wanted if the column is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
-  // Numbers of points: promised_ up to the end of this scan, before_block_ up to its beginning.
+  // `promised_` is the number of points that the file promises up to the end of this scan. Line
+  // `promising_line_` has the number for this scan alone. `before_block_` is the number of points before this
+  // scan.
   std::size_t promised_, promising_line_, before_block_ = 0;
   Cloud cloud_;
   std::vector<Vec3f> colours_;  // colours as the file has them, in any range
@@ -100,8 +102,8 @@ using Row = std::vector<double>;
 
 using Names = std::span<const std::string_view>;
 
-// Names of coordinates in files of other programs, the most common ones first: pairs of names for the plane,
-// and single names for the height.
+// Names of coordinates in files of other programs, the most common ones first. The names for the plane are in
+// pairs, such as "x" and "y"; each name for the height is alone.
 constexpr std::array<std::string_view, 18> plane_names = {
     "x",       "y",       "easting", "northing", "east",    "north",  "e",      "n",          "point_x",
     "point_y", "x_coord", "y_coord", "coord_x",  "coord_y", "xcoord", "ycoord", "rechtswert", "hochwert"};
@@ -115,8 +117,8 @@ constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
 constexpr std::array<std::string_view, 9> colour_names = {"r",    "g",  "b",  "red", "green",
                                                           "blue", "rf", "gf", "bf"};
 
-// Classes of points in LAS go up to 31. Columns of integers up to this value count as classes or numbers of
-// returns, not as colours.
+// Classes of points in LAS go up to 31. If three columns of integers have no number above this value, they
+// count as classes or numbers of returns, not as colours.
 constexpr double largest_class = 31;
 
 std::size_t find_name(const ColumnNames& names, std::string_view wanted) {

@@ -10,7 +10,8 @@
 namespace relievo {
 namespace {
 
-// Distances between neighbouring beads or strands, and sizes of strands, as fractions of the row's width.
+// Sizes as shares of the row's width: the distances between neighbouring beads and between neighbouring
+// strands, and the longer and the shorter half axis of a strand.
 constexpr double bead_step = 1.5, strand_step = .8, strand_length = .62, strand_width = .27;
 constexpr double strand_turn = std::numbers::pi / 4;
 constexpr int piece_corners = 32;

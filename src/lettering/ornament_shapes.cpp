@@ -15,8 +15,8 @@ namespace relievo {
 namespace {
 
 constexpr double curve_tolerance_mm = .003;
-// Default sizes of ornaments. The size of a text is a fraction of the margin without its borders. The size of
-// a border is a fraction of the whole margin.
+// Default sizes of ornaments. The size of a text is a fraction of that part of the margin that has no
+// borders. The width of a border, and its distance from the rim, are fractions of the whole margin.
 constexpr double text_share = .6, border_share = .12, line_share = .06, border_inset = .04;
 constexpr double usual_height = .2;  // as a fraction of the text's size
 constexpr double below_rim = .8;     // largest default height, as a fraction of the rim's height
@@ -37,7 +37,7 @@ Vec2 middle_of(const OrnamentFrame& frame) {
   return Box::of(frame.inner).centre().head<2>();
 }
 
-// Returns the radius of the largest circle inside the rim around the centre.
+// Returns the radius of the largest circle around the centre that is inside the rim.
 double radius_within(const OrnamentFrame& frame) {
   const Vec2 middle = middle_of(frame);
   double radius = std::numeric_limits<double>::infinity();
@@ -107,8 +107,8 @@ class TextPlacer {
   }
 
  private:
-  // Returns the distance between capitals and rim that centres the text in the margin without its borders. Parts of
-  // letters above the capitals and below the baseline count as text.
+  // Returns the distance between capitals and rim that centres the text in the margin without its borders.
+  // Parts of letters above the capitals and below the baseline count as text.
   double usual_inset() const {
     constexpr double usual_overshoot = .1;
     Box box;

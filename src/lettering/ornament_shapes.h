@@ -25,8 +25,9 @@ struct OrnamentFrame {
 // the margin's middle.
 double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm);
 
-// Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option for lengths
-// out of their range, for texts longer than their circle, and for drawings without an area or a size.
+// Returns the shapes of the ornaments in the order of the list. Errors: those of check_text(); kind option
+// for lengths out of their range, for texts longer than their circle, and for drawings without an area or a
+// size.
 Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
                                                  const OrnamentFrame& frame);
 

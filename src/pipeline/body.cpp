@@ -25,8 +25,8 @@ constexpr double least_error_mm = 1e-4;
 // die can be pulled off.
 constexpr double rim_bevel = .3;
 
-// The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the share of
-// limit_draft(), 0.999, so that simplification has some freedom. It is below 1 because of rounding.
+// The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the
+// share of limit_draft(), 0.999, so that simplification has some freedom. It is below 1 because of rounding.
 constexpr double front_share = .9995;
 constexpr double ornament_share = .997;  // the same for walls of ornaments, whose corners are rounded
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
@@ -41,8 +41,8 @@ double least_bevel(double height_mm, double draft_deg) {
   return rounded_up * height_mm / slope_at_draft(draft_deg);
 }
 
-// Returns the base for the form in the options. A mirrored form mirrors the base. A die turns a raised base into a
-// hollow one, and a hollow one into a raised one.
+// Returns the base for the form in the options. A mirrored form mirrors the base. A die turns a raised base
+// into a hollow one, and a hollow one into a raised one.
 BaseOptions formed_base(const ReliefOptions& options) {
   BaseOptions base = options.base;
   base.is_mirrored = is_mirrored(options.form);
@@ -50,7 +50,8 @@ BaseOptions formed_base(const ReliefOptions& options) {
   return base;
 }
 
-// Returns the rim for the form in the options. The default bevel keeps the draft angle unless the rim is too narrow.
+// Returns the rim for the form in the options. The default bevel keeps the draft angle unless the rim is too
+// narrow.
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
@@ -72,8 +73,9 @@ std::vector<Vec2> unit_hull(const Surface& surface) {
   return hull;
 }
 
-// Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The centre of
-// the relief's hull is that of the plate's outline, so each side of the outline limits the scale independently.
+// Returns the largest width of a relief that leaves space for margin and rim on all sides of the plate. The
+// centre of the relief's hull is that of the plate's outline, so each side of the outline limits the scale
+// independently.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
   const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);
@@ -99,8 +101,8 @@ std::string takers_of_room(const ReliefOptions& options) {
   return cat("margin", last.empty() ? " and rim" : ", rim", last);
 }
 
-// Returns an error if the options name a font or ornament file that was not read, because nothing replaces
-// the file.
+// Returns an error if the options name a font or ornament file whose contents were not read. No default
+// replaces such a file.
 Result<void> check_files(const ReliefOptions& options) {
   if (!options.font_name.empty() && !options.font)
     return option_error("font", cat("expected the bytes of '", options.font_name, "', found none"));

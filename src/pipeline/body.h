@@ -17,7 +17,8 @@ inline bool is_simplified(const ReliefOptions& options) {
   return options.tolerance_mm || options.triangles;
 }
 
-// Returns the width and height of the plate in millimetres; 0 if they are computed from the size of the relief.
+// Returns the width and height of the plate in millimetres; 0 if they are computed from the size of the
+// relief.
 Vec2 plate_size_of(const ReliefOptions& options);
 
 // Returns the plate options for a relief with that height. The options must have passed check(). If the
@@ -25,8 +26,8 @@ Vec2 plate_size_of(const ReliefOptions& options);
 // solid.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns the limits for simplifying the front. The shares of the tolerance that later steps need are subtracted, such
-// as that of a curved base. The options must ask for simplification.
+// Returns the limits for simplifying the front. The tolerance is reduced by the shares that later steps need,
+// such as bending the front to a curved base. The options must ask for simplification.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
 // Returns whether make_plate() simplifies the solid, because simplified_front() cannot. Returns true for
@@ -47,9 +48,9 @@ struct Body {
   const Solid& plate() const { return wrap ? flat : solid; }
 };
 
-// Returns the body that has this front. `relief_mm` is the height of the relief. Errors: kind option if the rim's
-// bevel is too close to the vertical for the draft angle; those of make_plate(), enforce_draft_in_float() and
-// wrap_plate().
+// Returns the body that has this front. `relief_mm` is the height of the relief. Errors: kind option if the
+// rim's bevel is too close to the vertical for the draft angle; those of make_plate(),
+// enforce_draft_in_float() and wrap_plate().
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
 
 struct FormedFront {
@@ -59,8 +60,8 @@ struct FormedFront {
   std::size_t full_triangles = 0;      // number of triangles of the front before simplification
 };
 
-// Returns the heights in millimetres of the base under the points of a front of Form::relief; no heights for
-// a plane. Errors: those of plate_base().
+// Returns the height in millimetres of the base under each point of a front, whose form must be Form::relief.
+// Returns no heights if the base is a plane. Errors: those of plate_base().
 Result<std::vector<double>> base_heights_mm(const HeightFieldMesh& front, const ReliefOptions& options);
 
 // Returns the surface's triangles as a front in millimetres, with the given heights of its points.
@@ -77,15 +78,16 @@ Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& opti
 // Returns how far the front's lowest point is below the ground, >= 0.
 double depth_below_ground(const HeightFieldMesh& front);
 
-// A front, simplified if the options ask for it, and the body that has this front. If the options limit the number of
-// triangles, the body's solid has at most that many.
+// A front, simplified if the options ask for it, and the body that has this front. If the options limit the
+// number of triangles, the body's solid has at most that many.
 struct FormedBody {
   FormedFront formed;
   Body body;
 };
 
-// Simplifies the front as the options ask, and returns the body that has it. Errors: those of simplified_front() and
-// make_body(); kind option if the solid needs more triangles than the limit for its outline and walls alone.
+// Simplifies the front as the options ask, and returns the body that has it. Errors: those of
+// simplified_front() and make_body(); kind option if the solid needs more triangles than the limit for its
+// outline and walls alone.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 }  // namespace relievo

@@ -26,8 +26,8 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   return {lowest, highest};
 }
 
-// Returns, per triangle, whether it is part of a smooth surface: inside the relief, and not part of a wall at a depth
-// jump.
+// Returns, per triangle, whether it is part of a smooth surface: inside the relief, and not part of a wall at
+// a depth jump.
 std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
   std::vector<std::uint8_t> is_smooth(surface.triangulation.triangles.size());
   const Boundary& boundary = surface.boundary;
@@ -53,8 +53,8 @@ Result<double> sample_step(const Surface& surface, const ReliefOptions& options)
       std::min(width_mm / samples, surface.rho * mm_per_unit(surface, options)));
 }
 
-// Returns, for each point of a front, whether its height must not change: it is on the ground, or is the highest or
-// the lowest point.
+// Returns, for each point of a front, whether its height must not change: it is on the ground, or is the
+// highest or the lowest point.
 std::vector<std::uint8_t> fixed_points(const HeightFieldMesh& front) {
   std::vector<std::uint8_t> is_fixed;
   for (const Vec3& p : front.points) is_fixed.push_back(p.z() == front.ground_mm);
@@ -65,9 +65,9 @@ std::vector<std::uint8_t> fixed_points(const HeightFieldMesh& front) {
   return is_fixed;
 }
 
-// Limits the slopes of a sampled front on its base to the draft angle. Points on the ground, the highest and the
-// lowest point do not move, and no point leaves the range between the highest and the lowest. Returns whether that is
-// possible. Errors: those of base_heights_mm().
+// Limits the slopes of a sampled front on its base to the draft angle. Points on the ground, the highest and
+// the lowest point do not move, and no point leaves the range between the highest and the lowest. Returns
+// whether that is possible. Errors: those of base_heights_mm().
 Result<bool> keep_draft(HeightFieldMesh& front, const ReliefOptions& options) {
   RELIEVO_TRY(const std::vector<double> base, base_heights_mm(front, options));
   std::vector<std::uint8_t> is_fixed = fixed_points(front);
@@ -93,8 +93,8 @@ Result<bool> keep_draft(HeightFieldMesh& front, const ReliefOptions& options) {
   return true;
 }
 
-// Samples the smooth surface of a front. Returns the front unchanged if it is a lithophane, whose heights are not
-// those of a surface, or if the samples cannot satisfy the draft angle.
+// Samples the smooth surface of a front. Returns the front unchanged if it is a lithophane, whose heights are
+// not those of a surface, or if the samples cannot satisfy the draft angle.
 Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
                                 std::span<const std::uint8_t> is_smooth, const ReliefOptions& options,
                                 const Progress* progress) {
@@ -106,7 +106,7 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The largest number of simplifications in search of the front's number of triangles. For a plane base the
+// The front is simplified at most this often to find how many triangles it may have. For a plane base the
 // first estimate is already right.
 constexpr int most_attempts = 4;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices

@@ -60,7 +60,8 @@ struct LiveModel::State {
     return *maker;
   }
 
-  // Returns the options of a frame. If the tone curve has the same points as the last one, the last object is reused.
+  // Returns the options of a frame. If the tone curve has the same points as that of the last frame, the
+  // curve object of that frame is reused.
   FrameOptions frame_options(const ReliefOptions& options) {
     FrameOptions wanted{shape_of(options, options.effective_width_mm() / longer_side)};
     wanted.shape.boundary_width *= shown.spacing_ratio;

@@ -50,7 +50,8 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 
-// Reports the heights of the front as the tool cuts it: the tool leaves material in narrow and deep places.
+// Reports the heights of the front that the tool cuts. They differ from the heights of the relief, because
+// the tool leaves material in narrow and deep places.
 void report_reachable_heights(const Solid& plate, ReliefReport& report) {
   double lowest = plate.ground_mm, highest = lowest;
   for (std::size_t t = 0; t < plate.front_triangles; ++t)
@@ -104,7 +105,8 @@ ReliefReport report_on(const ReliefFacts& facts) {
   return report;
 }
 
-// Returns the heights of the base under the surface's points, in the surface's units; empty if the base is a plane.
+// Returns the heights of the base under the surface's points, in the surface's units; empty if the base is a
+// plane.
 Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
                                          double mm_per_unit) {
   if (options.base.kind == BaseKind::plane) return std::vector<double>();
@@ -154,9 +156,9 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
-// Makes the relief with the requested or the default height. If the model is too shallow in this view for the default
-// height, its slopes are not compressed, and the height follows from them. A requested height that is too large is an
-// error.
+// Makes the relief with the requested or the default height. If the model is too shallow in this view for the
+// default height, its slopes are not compressed, and the height follows from them. A requested height that is
+// too large is an error.
 Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   const double scale = mm_per_unit(model.surface(), options);
   const bool is_usual = !options.height_mm && options.effective_height_mm();
@@ -170,8 +172,8 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
-// Returns the result of relief_of_height(). If the height is a share of the diagonal and cannot be reached, the error
-// also states the share that is reached with uncompressed slopes.
+// Returns the result of relief_of_height(). If the height is a share of the diagonal and cannot be reached,
+// the error also states the share that is reached with uncompressed slopes.
 Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options, bool is_share,
                          Progress* progress) {
   Result<Relief> relief = relief_of_height(model, options, progress);

@@ -45,8 +45,8 @@ std::optional<double> ruling_number(const ReliefOptions& options) {
     return options.*of;
 }
 
-// Reads a number into a member. The effective value comes from `ruling`, which is the member itself or a function
-// that returns a default if the member is empty.
+// Reads a number into a member. The effective value comes from `ruling`, which is the member itself or a
+// function that returns a default if the member is empty.
 template <auto member, auto ruling = member>
 constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
 

@@ -18,7 +18,8 @@ struct SampledModel {
 // Returns the model of the scene in its view. Errors: those of prepare() in job.h.
 Result<SampledModel> prepare_sampled(Job job, Progress* progress);
 
-// Does the same as prepare() in make_relief.h. Frees the points early, unless they have other owners.
+// Prepares a model as prepare() in make_relief.h does, but frees the points early, unless they have other
+// owners.
 Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,
                                   const ModelOptions& options, Progress* progress);
 

@@ -14,7 +14,8 @@
 namespace relievo {
 namespace {
 
-// A cloud keeps all its points if its sampling distance, divided by that of the scene, is between these limits.
+// A cloud keeps all its points if its sampling distance, divided by that of the scene, is between these
+// limits.
 constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
 constexpr Colour white{255, 255, 255};
 
@@ -133,7 +134,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// Returns the area, in the view plane, of the points that face the viewer, including hidden ones.
+// Returns the area, in the view plane, of those points that face the viewer. Hidden points count, too.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
@@ -143,14 +144,14 @@ double shown_area(const PlacedCloud& cloud) {
   return sum;
 }
 
-// Returns the area, in the view plane, of the triangles of a closed mesh that face the viewer, including
-// hidden ones. The orientation of triangles is ignored.
+// Returns the area, in the view plane, of those triangles of a closed mesh that face the viewer. Hidden
+// triangles count, too. The orientation of triangles is ignored.
 double shown_area(const Mesh& mesh, const View& view) {
   const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    // The factor 1/4 is the product of 1/2 for a triangle and 1/2 because half of a closed mesh faces the viewer.
+    // The cross product gives twice the area of a triangle, and only half of a closed mesh faces the viewer.
     sum += std::abs(p.cross(q).dot(to_viewer)) / 4;
   }
   return sum;
@@ -183,7 +184,8 @@ Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
 Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   Cloud all;
   for (PlacedCloud& placed : parts.clouds) {
-    // Each model has a scale factor of its own, so depths are not proportional to the values of a file any more.
+    // Each model has a scale factor of its own, so depths are not proportional to the values of a file any
+    // more.
     if (placed.cloud.units_per_value) all.units_per_value = 0;
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {

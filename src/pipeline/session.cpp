@@ -162,16 +162,16 @@ struct Session::State {
     return std::make_shared<const ReliefModel>(std::move(model));
   }
 
-  // Makes the first coarse relief if it is wanted. The model is made afterwards, because making both at the same time
-  // would take longer.
+  // Makes the first coarse relief if it is wanted. The model is made afterwards, because making both at the
+  // same time would take longer.
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
     keep_first(turned(view, nullptr, progress), view);
   }
 
-  // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns whether it
-  // was made.
+  // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns
+  // whether it was made.
   bool make_early(const Cloud& cloud, const View& view, bool is_wanted) {
     if (!is_wanted || cloud.size() < 2 * early_points) return false;
     const auto progress = shared.with([](Shared& s) -> std::shared_ptr<Progress> {
@@ -216,8 +216,8 @@ struct Session::State {
     return MeasuredCloud::measure(*points, view, &progress);
   }
 
-  // Returns the turntable of the points that were measured last. If these were sampled or cropped for a single view,
-  // first measures the points of all sides.
+  // Returns the turntable of the points that were measured last. If these were sampled or cropped for a
+  // single view, first measures the points of all sides.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides, has_first] = shared.with([](const Shared& s) {
       return std::tuple(s.turntable, s.measured, s.all_sides, s.first.has_value());

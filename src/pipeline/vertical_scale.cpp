@@ -24,8 +24,8 @@ class ValueScale {
     }
   }
 
-  // Returns how far the point's value is above the ground, in units of the file's values; 0 if it is below the
-  // ground.
+  // Returns how far the point's value is above the ground, in units of the file's values; 0 if it is below
+  // the ground.
   double above_ground(const Vec3& p) const { return std::max(0., rising(p) - ground_); }
 
  private:
@@ -75,7 +75,8 @@ std::vector<std::uint8_t> tile_edges(const Surface& surface) {
         surface.boundary.is_boundary[i] && std::ranges::any_of(sides, [&](const Side& side) {
           return (surface.points[i].head<2>() - side.place).dot(side.inwards) < near * surface.rho;
         });
-  // At a hole the relief goes down to the ground, so the points beside it do not belong to an edge of the tile.
+  // At a hole the relief goes down to the ground, so the points beside it do not belong to an edge of the
+  // tile.
   std::vector<std::uint8_t> is_edge = is_on_side;
   for (const auto& [a, b] : relief_edges(surface))
     if (!is_on_side[a] || !is_on_side[b]) is_edge[a] = is_edge[b] = 0;

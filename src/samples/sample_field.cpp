@@ -142,8 +142,8 @@ void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, B
   if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
 }
 
-// A random line through a random cell, parallel to an axis, uniformly distributed over the cell's
-// cross-section.
+// A random line through a random cell. The line is parallel to an axis, and its position is uniformly
+// distributed over the cell's cross-section.
 struct Shot {
   Line line;
   double at_least = 0;  // lower bound of the field's magnitude at the midpoint of the line

@@ -58,8 +58,8 @@ double eye(const Vec3& p) {
 struct Ball {
   Vec3 centre;
   double radius;
-  // The ball contains a part of the model. Returns whether that part can change the distance field at p, where the
-  // field is `d` so far. Parts are joined smoothly within a distance of `fillet`.
+  // The ball contains a part of the model. Returns whether that part can change the distance field at p,
+  // where the field is `d` so far. Parts are joined smoothly within a distance of `fillet`.
   bool matters(const Vec3& p, double d, double fillet) const {
     return (p - centre).norm() - radius < std::abs(d) + fillet;
   }

@@ -16,7 +16,8 @@ struct Image {
 
   bool empty() const { return pixels.empty(); }
 
-  // Accesses `pixels` in order: row by row, with the channels of a pixel next to each other.
+  // The number of elements of `pixels`, and access to them in their order: row by row, with the channels of a
+  // pixel next to each other.
   std::size_t size() const { return pixels.size(); }
   T& operator[](std::size_t i) { return pixels[i]; }
   const T& operator[](std::size_t i) const { return pixels[i]; }

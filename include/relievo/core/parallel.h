@@ -1,7 +1,7 @@
 // Runs loops in parallel. The library creates threads only here. On systems without threads, such as
-// WebAssembly, the calling thread does everything. Loops are divided into blocks. Their limits depend on the
-// number of elements, but not on the number of threads, so that results have the same bits for any number of
-// threads. Tested by tests/core/parallel_test.cpp.
+// WebAssembly, the calling thread does everything. Loops are divided into blocks. The limits of the blocks
+// depend on the number of elements, but not on the number of threads, so that results have the same bits for
+// any number of threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
 #include <algorithm>

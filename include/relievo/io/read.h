@@ -22,8 +22,8 @@ std::string readable_formats();
 // Returns the file name extensions of readable files, in lower case with the dot.
 std::vector<std::string> readable_endings();
 
-// A function that returns the bytes of another file that the file being read refers to, such as a buffer of a
-// glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
+// A function that returns the bytes of another file, to which the file being read refers, such as a buffer of
+// a glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
 // function returns an error, the reader reports only that it cannot read that file.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
@@ -93,8 +93,9 @@ struct PictureChannels {
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
-// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
-// commas, semicolons or white space. Errors: kind option for any other text, or a focal length that is not positive.
+// Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row. Commas,
+// semicolons or white space separate the numbers. Errors: kind option for any other text, and for a focal
+// length that is not positive.
 Result<DepthCamera> parse_camera(std::string_view text);
 
 // The size of a scan, determined from the beginning of the file, so that the needed memory is known before

@@ -1,5 +1,5 @@
-// Reads clouds that are too large for memory. It reads them block by block, and reduces them to the points
-// that the viewer sees, at the requested resolution.
+// Reads clouds that are too large for memory, block by block. Reduces them to the points that the viewer
+// sees, at the requested resolution.
 #pragma once
 
 #include <cstddef>
@@ -39,8 +39,8 @@ struct StreamedCloud {
   std::vector<std::string> remarks = {};  // messages about what was left out, see CloudFile
 };
 
-// Returns whether stream_front() can read the file that begins with these bytes: LAS, binary PCD, or binary
-// PLY without lists in the vertices and in the elements before them.
+// Returns whether stream_front() can read the file that begins with these bytes. It can read LAS and binary
+// PCD. It can also read binary PLY if neither the vertices nor the elements before them contain lists.
 bool can_stream(std::span<const std::byte> head, std::string_view name);
 
 // The options of stream_front().

@@ -62,12 +62,13 @@ std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image, const PngLabel& label = {});
 std::vector<std::byte> write_labelled_png(const Image8& image, const PngLabel& label);
 
-// Returns the heights as a deflated float32 TIFF. Its resolution tags have pixels per centimetre; its
-// description has mm_per_pixel and the unit of the heights. The result is empty for an image without pixels.
+// Returns the heights as a deflated float32 TIFF. Its resolution tags state the pixels per centimetre; its
+// description states mm_per_pixel and the unit of the heights. The result is empty for an image without
+// pixels.
 std::vector<std::byte> write_tiff(const HeightsMm& heights);
 
-// Returns the grey levels as a deflated TIFF with 8 or 16 bits and the same resolution tags. `description`
-// becomes the description of the file.
+// Returns the grey levels as a deflated TIFF with 8 or 16 bits. Its resolution tags state the pixels per
+// centimetre. `description` becomes the description of the file.
 std::vector<std::byte> write_tiff(const HeightMap& map, const std::string& description);
 
 }  // namespace relievo

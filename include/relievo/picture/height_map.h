@@ -1,5 +1,5 @@
-// Makes height maps of a solid's front. Their values are grey levels, for machines and for people who look at
-// them, or heights in millimetres.
+// Makes height maps of a solid's front. The values of a height map are either grey levels or heights in
+// millimetres.
 #pragma once
 
 #include <array>
@@ -58,8 +58,9 @@ struct HeightsMm {
 // pixels if the solid is empty, or if the number of pixels along a side would not be in [1, 32768].
 HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options);
 
-// Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels; heights
-// below the zero height have its grey level. If all heights are equal, all pixels have that level.
+// Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels. Heights
+// below the zero height get the grey level of the zero height. If all heights are equal, all pixels get that
+// level.
 HeightMap grey_levels(const HeightsMm& heights, int bits = 16);
 
 // Returns the image of the map with 8 bits per grey level.
@@ -68,8 +69,8 @@ Image8 in_8_bits(const HeightMap& map);
 // Returns the number of different grey levels in the picture.
 int count_greys(const HeightMap& map);
 
-// Returns a shaded picture of the front from above. Material that the tool leaves is coloured from orange to
-// red, according to its share of the largest residual. The result has no pixels if there are no samples.
+// Returns a shaded picture of the front from above. Material that the tool leaves is orange where it is thin,
+// and red where it is as thick as the largest residual. The result has no pixels if there are no samples.
 Image8 render_reach(const ToolReach& reach, int longer_side_px);
 
 }  // namespace relievo

@@ -45,10 +45,10 @@ class SolidRenderer {
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
-  // Overwrites the picture; it gets no pixels if the size is out of range. At zoom 1 the solid fits into the
-  // picture. The camera rotates about the centre of the solid's box, at the height of its ground. The lengths
-  // in the options (mm_per_unit, margin_mm, thickness_mm) are ignored, because the solid has its own. After
-  // cancellation the picture is unfinished.
+  // Overwrites the picture; it gets no pixels if options.has_size() is false. At zoom 1 the solid fits
+  // into the picture. The camera rotates about the centre of the solid's box, at the height of its ground.
+  // The lengths in the options (mm_per_unit, margin_mm, thickness_mm) are ignored, because the solid has its
+  // own. After cancellation the picture is unfinished.
   void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
 
  private:

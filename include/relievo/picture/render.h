@@ -28,7 +28,7 @@ struct Picture {
 // Without rotation it shows the plate from the front.
 struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
-  double zoom = 1;          // 1 if the plate fits into the picture
+  double zoom = 1;          // at zoom 1 the plate just fits into the picture
   Vec2 pan = Vec2::Zero();  // point of the plate's plane, in mm, at the centre of the picture
 
   bool operator==(const Camera&) const = default;
@@ -42,7 +42,7 @@ struct RenderOptions {
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // direction to the lamp, in the axes of the plate; not zero
   bool has_shadows = true;        // whether the relief casts shadows on itself, and hollows are darker
-  bool is_fine = false;           // if true: nine samples per pixel and finer shadows, five times slower
+  bool is_fine = false;           // nine samples per pixel and finer shadows; takes five times as long
 
   // Returns whether width and height are in [1, 8192]. If not, pictures are empty.
   bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }
@@ -50,9 +50,9 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// Normals that the points of a coarse surface do not resolve: -(n_x, n_y) on a grid of square cells over the
-// view plane. The first row is the lowest. Cells are NaN where the scan has no points and along silhouettes
-// and depth jumps.
+// Detail of the normals that is finer than the points of a coarse surface: -(n_x, n_y) on a grid of square
+// cells over the view plane. The first row is the lowest. Cells are NaN where the scan has no points and
+// along silhouettes and depth jumps.
 struct SurfaceDetail {
   Vec2f corner = Vec2f::Zero();  // lower left corner of the grid, in the coordinates of the surface's points
   float cell = 1;
@@ -70,12 +70,12 @@ struct Shown {
   // points, see FrameMaker::write_gains().
   const SurfaceDetail* detail = nullptr;
   std::span<const float> gains = {};
-  // If not empty, colours the relief from blue to orange: a share in [0, 1] per point.
+  // If not empty: a share in [0, 1] per point, which colours the relief from blue (0) to orange (1).
   std::span<const float> tint = {};
 };
 
-// The size of a piece, and the position of its relief's middle relative to the piece's middle. For a piece
-// that is bent around a wrap, the position is that in the flat plate.
+// The size of the plate with its relief, and the position of the relief's middle relative to the plate's
+// middle. If the plate is bent around a wrap, the position is that before bending.
 struct PlacedRelief {
   Vec3 size_mm = Vec3::Zero();
   Vec2 middle_mm = Vec2::Zero();
@@ -95,15 +95,15 @@ class FrameRenderer {
   FrameRenderer(FrameRenderer&&) noexcept;
   ~FrameRenderer();
 
-  // Overwrites the picture; it gets no pixels if the size is out of range. `shown` has an entry for each
-  // point of the model's surface. After cancellation the picture is unfinished.
+  // Overwrites the picture; it gets no pixels if options.has_size() is false. `shown` has an entry for
+  // each point of the model's surface. After cancellation the picture is unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
   // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
-  // or as a die. Uses only mm_per_unit of the lengths in `options`. There must be no ornaments, and a plate
-  // without ground must have a plane base and no wrap. The plate is kept for the next picture. If only the
-  // height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
+  // or as a die. Of the lengths in `options`, only mm_per_unit is used. There must be no ornaments, and a
+  // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
+  // the height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
   // bevel. Errors: those of make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);

@@ -67,8 +67,8 @@ class Base {
 
   // Returns the base under a plate with that outline. The outline's bounding box determines the base's middle
   // and size. An image is scaled until it covers the plate; the rest of the image is cut off. Errors: kind
-  // option for a number out of range, for numbers that contradict each other; for a surface other than an
-  // image that is steeper than 80 degrees somewhere on the plate; for an image that is missing, is smaller
+  // option for a number out of range and for numbers that contradict each other; for a base that is steeper
+  // than 80 degrees somewhere on the plate, unless it is an image; for an image that is missing, is smaller
   // than 2 x 2, or has values that are not finite.
   static Result<Base> over(const BaseOptions& options, std::span<const Vec2> outline);
 

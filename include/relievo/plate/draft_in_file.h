@@ -10,12 +10,12 @@ namespace relievo {
 // or overhangs, unless its corners have the same height.
 double steepest_slope(const Solid& solid);
 
-// Moves points of the solid's front up or down until no front triangle exceeds the limit with its corners
-// rounded to single precision. The moves are only as large as this rounding requires. Returns the largest
-// move in mm, usually below 1e-5. The ground, the highest and the lowest point do not move. Errors: kind
-// geometry if no such moves are found; the solid is then unchanged. There are two causes: the front was too
-// steep before rounding, or a triangle became too steep by rounding but its points are fixed or only a few
-// units in the last place apart.
+// Moves points of the solid's front up or down until no front triangle is steeper than `max_slope` after its
+// corners are rounded to single precision. The moves are only as large as this rounding requires. Returns the
+// largest move in mm, usually below 1e-5. The ground, the highest and the lowest point do not move. Errors:
+// kind geometry if no such moves are found; the solid is then unchanged. There are two causes. The front may
+// have been too steep before rounding. Or rounding makes a triangle too steep whose points are fixed or are
+// only a few units in the last place apart.
 Result<double> enforce_draft_in_float(Solid& solid, double max_slope);
 
 }  // namespace relievo

@@ -34,9 +34,9 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // brightest, and at most `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the
 // logarithm of the brightness. The brightness is that of a white model under a lamp from the upper left,
 // multiplied by the luminance of the model's colours, if any. The brightest 2 % of the points (highlights)
-// count as equally bright. The ground, the outline, and the darkest points have the largest height: all
-// points below a tenth of the highlights' brightness. If more than a tenth of the points are that dark, only
-// the darkest tenth have this height.
+// count as equally bright. The ground, the outline, and the darkest points have the largest height. The
+// darkest points are all points below a tenth of the highlights' brightness. But if more than a tenth of the
+// points are that dark, only the darkest tenth have the largest height.
 //
 // A flat surface with colours is a picture. Its heights fall linearly from black to white, without highlights
 // and shading. The values of a picture are already close to the logarithm of its brightness, because displays

@@ -57,9 +57,10 @@ bool has_free_size(Outline outline);
 bool is_box(Outline outline);
 
 // Returns the outline around points in the plane: a convex polygon, counter-clockwise, whose edges are at
-// least the margin away from every point. A curved outline is replaced by an inscribed polygon; the curve
-// itself has the margin. The polygon is as wide and as high as the curve. It deviates from the curve by at
-// most a micrometre or a ten-millionth of the curve's radius, whichever is more.
+// least the margin away from every point. A curved outline is replaced by a polygon inscribed in the curve;
+// then the curve, not the polygon, has the margin. The polygon is as wide and as high as the curve. It
+// deviates from the curve by at most a micrometre or a ten-millionth of the curve's radius, whichever is
+// more.
 //
 // Outlines are centred on the bounding box of the points. Circles, ellipses and hexagons are centred only
 // horizontally; their vertical position makes the circle or ellipse as small as possible. All outlines but

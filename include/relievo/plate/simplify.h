@@ -17,8 +17,9 @@ struct SimplifiedMesh {
 
 struct SimplifyOptions {
   double tolerance_mm = .01;  // > 0
-  // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A needle may
-  // exceed the limit by the slope that corresponds to a micrometre of height.
+  // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A triangle that
+  // is steeper than the limit must be within a millionth of a millimetre of the front. So only very thin
+  // triangles can be much steeper than the front.
   double max_slope = std::numeric_limits<double>::infinity();
   // Limit of the number of triangles. When it is reached, the error may exceed the tolerance. There may be
   // more triangles than the limit, because some points are always kept, see simplify().
@@ -26,15 +27,15 @@ struct SimplifyOptions {
 };
 
 // Returns the front with fewer points. Its distance from the original is at most `tolerance_mm`. The result
-// is a Delaunay triangulation. Points are added in rounds. Each round adds, for every triangle whose error
-// exceeds the tolerance, the point with the largest error among the front's points and on its edges. The
-// rounds end when no error exceeds the tolerance or the limit of triangles is reached. The highest and the
-// lowest point are kept. Flat ground is reduced to few triangles and stays flat, because all points on its
-// boundary are kept. If `is_relief` is given, all points on the relief's rim are kept, and `is_relief` of the
-// result is set. If the result would have more triangles than the front, the front is returned unchanged.
-// Errors: kind option for a tolerance that is not positive; kind geometry for a front without triangles, or
-// whose triangles are not a Delaunay triangulation up to rounding, so that they do not cover their hull; kind
-// cancelled.
+// is a Delaunay triangulation. Points are added in rounds. Each round adds one point for every triangle whose
+// error exceeds the tolerance. This point is where the error is largest: one of the front's points, or a
+// point on one of the front's edges. The rounds end when no error exceeds the tolerance or the limit of
+// triangles is reached. The highest and the lowest point are kept. Flat ground is reduced to few triangles
+// and stays flat, because all points on its boundary are kept. If `is_relief` is given, all points on the
+// relief's rim are kept, and `is_relief` of the result is set. If the result would have more triangles than
+// the front, the front is returned unchanged. Errors: kind option for a tolerance that is not positive; kind
+// geometry for a front without triangles, or whose triangles are not a Delaunay triangulation up to rounding,
+// so that they do not cover their hull; kind cancelled.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
                                 Progress* progress = nullptr);
 

@@ -109,7 +109,7 @@ Solid in_unit(Solid solid, LengthUnit unit);
 //
 // The outline `none` makes a body of only the relief, with its holes, or several bodies if the relief has
 // several connected parts. The front then has only the relief's points and triangles, in their order, and the
-// bottom has as many points and triangles. Triangles that are connected only by a corner, and parts smaller
+// bottom has as many of both as the front. Triangles that are connected only by a corner, and parts smaller
 // than a thousandth of the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
@@ -125,9 +125,9 @@ Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& option
 // Returns the plate bent around its wrap: its ground is on the wrap, its bottom is the other side of the
 // shell, and its walls point towards the axis. Its bounding box begins at the origin. If a rectangle goes all
 // the way around a cylinder or a cone, its two sides are joined. `plate` must be the result of make_plate()
-// with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief would reach
-// the axis, or if there is no wrap; also, for a plate that goes all the way around, if its outline is not a
-// rectangle, its axis is slanted, or it has a rim.
+// with the same options. Errors: those of plate_wrap(); kind option if there is no wrap, or if the shell or
+// the relief would reach the axis. A plate that goes all the way around is also an error of kind option if
+// its outline is not a rectangle, its wrap has a slanted axis, or it has a rim.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().

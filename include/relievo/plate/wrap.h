@@ -49,12 +49,13 @@ class Wrap {
   // sphere's centre passes through the origin; the viewer is at +Z. Orientation is preserved.
   Vec3 at(const Vec2& place, double above_ground_mm) const;
 
-  // Returns the smallest distance of the ground from the axis, in mm. Relief and back must be less deep than
-  // that.
+  // Returns the smallest distance of the ground from the axis, in mm. The relief and the back of the plate
+  // must be less deep than that.
   double min_radius_mm() const { return min_radius_; }
 
-  // Returns the approximate position in z of the bent ground relative to its front tangent plane, in mm;
-  // never positive. Only used to choose a triangulation.
+  // Returns the z of the bent ground at this place, relative to the plane that is tangent to the ground in
+  // the plate's middle. The result is in mm, approximate, and never positive. Only used to choose a
+  // triangulation.
   double sag(const Vec2& place) const;
 
   double diameter_mm() const { return 2 * radius_; }

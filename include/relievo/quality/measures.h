@@ -12,10 +12,11 @@
 namespace relievo {
 
 // The measures are taken on a picture whose longer side has 512 pixels. They use the pixels inside the
-// silhouette that are at least 5 pixels away from it and from the model's depth jumps; halo, steep_share,
-// height_used and the steps use all pixels. The model is represented by the scan's own normals and depths.
-// Fray, facets and sides are measured on the surface's triangles. A noisy relief can have a better shading,
-// so the measures should be read together.
+// silhouette that are at least 5 pixels away from it and from the model's depth jumps. But halo, steep_share,
+// height_used, jump_step and rim_step use all pixels. The model is represented by the scan's own normals and
+// depths. silhouette_fray_deg, jump_fray_deg, facet_angle_deg and longest_side are measured on the surface's
+// triangles. A noisy relief can have a better shading than a smooth one, so the measures should be read
+// together.
 struct Measures {
   double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 equals the model
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
@@ -25,9 +26,9 @@ struct Measures {
 
   double halo = 0;                 // standard deviation of heights in the background, as a share of `height`
   double steep_share = 0;          // share of the silhouette's pixels steeper than 80 degrees
-  double height_used = 0;          // height between the 1st and the 99th percentile, as a share of `height`
+  double height_used = 0;          // 99th minus 1st percentile of the heights, as a share of `height`
   double jump_step = 0;            // largest step at a depth jump of the model, as a share of `height`
-  double rim_step = 0;             // largest height one edge inside the silhouette, as a share of `height`
+  double rim_step = 0;             // largest height of points next to the silhouette, as a share of `height`
   double silhouette_fray_deg = 0;  // scatter of the triangles' tilt along the silhouette, see docs/quality.md
   double jump_fray_deg = 0;        // the same scatter along both sides of depth jumps
   double facet_angle_deg = 0;  // 99th percentile of the angles between triangles where the model is smooth

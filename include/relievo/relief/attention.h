@@ -1,4 +1,5 @@
-// Estimates which parts of a model viewers look at, from its curvature. Tested by tests/relief/attention_test.cpp.
+// Estimates which parts of a model viewers look at, from its curvature. Tested by
+// tests/relief/attention_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,11 @@
 namespace relievo {
 
 // Returns the attention of every point, in [0, 1]; 0 everywhere on a surface without curvature. The curvature
-// is blurred along the surface by Gaussians, and the differences of two blurs are taken at five widths. A
-// width whose difference has few strong maxima gets a large weight (Lee, Varshney and Jacobs, Mesh saliency,
-// 2005). The weighted sum is multiplied by a Gaussian around the middle of the view, smoothed, and scaled.
-// Models of this kind predict only poorly where people look, see docs/method.md.
+// is blurred along the surface by Gaussians of several widths. At each of five widths, the difference of two
+// blurs is taken. A difference with few strong maxima gets a large weight (Lee, Varshney and Jacobs, Mesh
+// saliency, 2005). The weighted sum of the differences is multiplied by a Gaussian around the middle of the
+// view, smoothed, and scaled to [0, 1]. Models of this kind predict only poorly where people look, see
+// docs/method.md.
 std::vector<float> attention(const Surface& surface);
 
 // A level encodes the attention minus its mean: level 0 is -1, and each level is 1 / attention_steps more

@@ -34,10 +34,10 @@ struct BaselineInput {
   const ReliefMetrics& metrics;
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names(); `system`
-// is the system of all points of the surface. Errors: kind geometry if the baseline's relief is flat and
-// cannot be scaled. Messages give heights in millimetres; `unit_mm` is the number of millimetres per unit of
-// the surface.
+// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names();
+// `system` is the system of all points of the surface. Errors: kind geometry if the baseline's relief is flat
+// and cannot be scaled. Messages give heights in millimetres; `unit_mm` is the number of millimetres per unit
+// of the surface.
 Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
                                   double unit_mm);
 

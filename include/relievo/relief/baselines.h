@@ -12,8 +12,8 @@ namespace relievo {
 
 struct Surface;
 
-// Gradient-domain compression. Source: Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief
-// from 3D scenes, 2007.
+// Gradient-domain compression. Source: Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital
+// bas-relief from 3D scenes, 2007.
 struct GradientOptions {
   double attenuation = 5;     // a in log(1 + a |g|) / a, > 0
   double steepest_kept = 10;  // gradients steeper than this are removed

@@ -1,5 +1,5 @@
-// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. Follows
-// stages 12 and 14.
+// Limits the slopes of reliefs to a draft angle, so that a die, a mould or a cutter can be withdrawn. This
+// step follows stages 12 and 14.
 #pragma once
 
 #include <span>
@@ -31,12 +31,12 @@ struct DraftOrder {
   double unit_mm = 1;  // millimetres per unit of the height, for messages
 };
 
-// Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means the
-// smallest sum over all triangles of squared slope changes, where slopes above twice the limit count as twice
-// the limit. Boundary points stay on the base. A relief within the limit is returned unchanged, bit for bit.
-// The slopes of any other relief are reduced to a thousandth below the limit, so that it also satisfies the
-// limit in single precision. Takes about 0.5 s for 160k points. Errors: kind geometry if the base alone is
-// steeper than the limit; those of HeightSystem::build(); kind cancelled.
+// Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means that the
+// squared slope changes, summed over all triangles, are smallest. In this sum, slopes above twice the limit
+// count as twice the limit. Boundary points stay on the base. A relief within the limit is returned
+// unchanged, bit for bit. The slopes of any other relief are reduced to a thousandth below the limit, so that
+// it also satisfies the limit in single precision. Takes about 0.5 s for 160k points. Errors: kind geometry
+// if the base alone is steeper than the limit; those of HeightSystem::build(); kind cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);
 

@@ -12,8 +12,8 @@
 
 namespace relievo {
 
-// The x and y of one layer of a normal. Each is stored as an integer in units of 1/16384 and clamped to [-2,
-// 2], which needs half the memory of two floats.
+// The x and y of one layer of a normal. Each is clamped to [-2, 2] and stored as an integer in units of
+// 1/16384. This needs half the memory of two floats.
 class LayerXy {
  public:
   static constexpr float unit = 0x1p-14F;
@@ -32,13 +32,13 @@ class LayerXy {
 
 // Band-pass decomposition of -(n_x, n_y): the differences between consecutive Gaussian blurs along the
 // surface (standard deviations of 0.45, 5.8 and 12 % of the longer side), and the remainder. The layers sum
-// up to -(n_x, n_y), which is faded out above about 85 degrees.
+// up to faded_xy() of the normal.
 struct PointLayers {
   LayerXy fine, middle, coarse, broad;
 };
 
-// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because slopes there use up
-// height but add little shading.
+// Returns -(n_x, n_y), faded out where the surface turns away from the viewer: to half at about 85 degrees.
+// Slopes there use up height but add little shading.
 Vec2f faded_xy(const Vec3f& normal);
 
 // Returns the layers of every point of a surface. Takes about 0.1 s for 180k points.

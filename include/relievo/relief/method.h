@@ -81,7 +81,7 @@ enum class Mode {
 inline constexpr std::array<Choice<Mode>, 3> mode_choices{
     {{"exact", Mode::exact}, {"subspace", Mode::subspace}, {"auto", Mode::automatic}}};
 
-inline constexpr std::size_t usual_control_points = 8000;  // as in most rows of the paper's Table 1
+inline constexpr std::size_t usual_control_points = 8000;  // the number in most rows of the paper's Table 1
 
 // The options for preparing a model. They determine which reliefs the model can make, and how fast.
 struct ModelOptions {

@@ -31,8 +31,8 @@ struct Relief {
   Shape shape;                  // the shape of the relief
 };
 
-// With more visible points, Mode::automatic means subspace, because exact frames would take more than 40 ms
-// on two cores.
+// If a surface has more visible points than this, Mode::automatic means subspace, because exact frames would
+// take more than 40 ms on two cores.
 inline constexpr std::size_t most_exact_points = 1'500'000;
 
 // Returns exact or subspace for `automatic`, depending on the number of points; returns any other mode
@@ -103,12 +103,12 @@ class ReliefModel {
 
   // Returns the relief whose height, including detail, is `height`. Searches for the u of the compression
   // that gives this height. beta, gamma and the slope limit stay as requested, which is the intent of
-  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps, of at most
-  // their real depth, add the missing height. Shape::steps of the result is the share of these steps. Models
-  // of Method::paper have no such steps, and the search changes beta, too, if Shape::is_beta_free is set; see
-  // search_paper_height() in the source file src/relief/paper_relief.h. Errors: kind geometry if no relief
-  // has that height; the message states the largest possible height in millimetres, for `unit_mm` millimetres
-  // per unit. Kind cancelled.
+  // Algorithm 1 (section 3.6). If no u gives that height, u is infinite, and steps at depth jumps add the
+  // missing height. Each of these steps is at most as deep as the jump in the model. Shape::steps of the
+  // result is the share of these steps. Models of Method::paper have no such steps, and the search changes
+  // beta, too, if Shape::is_beta_free is set; see search_paper_height() in the source file
+  // src/relief/paper_relief.h. Errors: kind geometry if no relief has that height; the message states the
+  // largest possible height in millimetres, for `unit_mm` millimetres per unit. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 
@@ -120,8 +120,8 @@ class ReliefModel {
   std::unique_ptr<State> state_;
 };
 
-// Sets the heights of the models of a scene that have a requested height of their own, see Pose::height. This
-// is the last step of a relief. ReliefModel does it itself; baselines need this call.
+// Changes the heights of those models of a scene for which Pose::height requests a height. This is the last
+// step of a relief. ReliefModel does it itself; baselines need this call.
 void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo

@@ -19,7 +19,7 @@ enum class Style {
   // SubspaceModel are made in this way. Models of Method::paper make their reliefs by ReliefModel::paper(),
   // for either style.
   paper_weights,
-  layered  // normals compressed layer by layer, fine layers least; heights compressed by HeightCorrection
+  layered  // compresses normals layer by layer, and fine layers least; compresses heights by HeightCorrection
 };
 
 // Height and saturation of a relief. The paper's height coefficient is alpha. For every beta > 0, u =
@@ -58,17 +58,19 @@ struct Shape {
   Style style = Style::paper_weights;
   // Whether the search for a height also chooses beta, by Algorithm 1. Used only by ReliefModel::paper().
   bool is_beta_free = false;
-  // The height of the relief, as a share of the height that (9) gives for its slopes, (0, 1];
+  // The height of the relief, as a share of the height that equation (9) gives for its slopes, (0, 1];
   // usual_height_share() if not set. A smaller share shows more of the model's shapes. This and the following
   // members are used only by the layered style.
   std::optional<double> height_share = {};
   bool is_corrected = true;  // whether HeightCorrection compresses the heights
-  // Least step of a part above the surface behind it and above the base, as a share of the height, [0, 0.3].
+  // Least height of the step from a part of the model down to the surface behind it or to the base, as a
+  // share of the relief's height, [0, 0.3].
   double planes = 0;
   // The light for which slopes are chosen; only for exact models.
   std::optional<ReliefLight> light = {};
-  // Exponent of the attention, [0, 4]: u of the fine and middle layers is multiplied by exp(attention (A - mean A)),
-  // where A in [0, 1] estimates where viewers look; 0 treats all parts alike. Only for exact models.
+  // Exponent of the attention, [0, 4]. It multiplies u of the fine and middle layers by exp(attention (A -
+  // mean A)), where A in [0, 1] estimates where viewers look; 0 treats all parts alike. Only for exact
+  // models.
   double attention = 0;
   // Local changes of the finished heights, for all methods except the paper's. If a stroke changes the
   // highest point, all heights are scaled, so that the height of the relief stays the same.

@@ -22,8 +22,8 @@ enum class Brush {
   raise,       // adds amount * height of the relief
   sink,        // subtracts amount * height of the relief
   level,       // adds amount * (mean height under the stroke - z)
-  // Removes the share `amount` of the height correction, except for the plane that fits it best. So the
-  // correction flattens no shape.
+  // Removes the share `amount` of the height correction, but keeps the plane that fits this correction best.
+  // With amount 1 the correction only moves and tilts the shapes under the stroke, and does not flatten them.
   protect,
   in_front  // raises the stroke as a whole until it stands amount * height above the surface behind it
 };
@@ -41,7 +41,7 @@ inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::str
 enum class StrokeArea {
   line,  // the points within the radius of a line
   // The points inside a closed line, seen in the direction in which the line was drawn. Points that are
-  // behind the line by more than half of its longer side are left out.
+  // behind the line by more than half of the line's longer side are left out.
   lasso,
   region  // the points around a single point, as far as the surface turns less than the tolerance
 };
@@ -77,8 +77,8 @@ inline constexpr std::size_t most_strokes = 10'000, most_stroke_points = 100'000
 
 // Returns the strokes in a JSON array such as
 //   [{"brush": "soften", "amount": 0.5, "radius": 3, "points": [[0, 1, 2], [1, 1, 2]], "name": "cheek"}].
-// Amount, softness, name and muted are optional. An area is "line" without the key "area"; a lasso has at
-// least three points and a "direction" [x, y, z], a region has one point, and perhaps a "tolerance". An empty
+// Amount, softness, name and muted are optional. Without the key "area", the area is "line". A lasso has at
+// least three points and a "direction" [x, y, z]; a region has one point, and perhaps a "tolerance". An empty
 // text means no strokes. Errors: kind option, naming the stroke and what was expected.
 Result<Strokes> parse_strokes(std::string_view json);
 

@@ -1,6 +1,6 @@
-// Our subspace mode, which follows the paper's (stages 7, 8 and 10), makes reliefs from a few thousand
-// control points. The time for a relief depends little on the size of the cloud. src/paper/mapping.h has the
-// paper's own mapping.
+// Our subspace mode makes reliefs from a few thousand control points. It follows the subspace mode of the
+// paper (stages 7, 8 and 10). The time for a relief depends little on the size of the cloud.
+// src/paper/mapping.h has the paper's own mapping.
 #pragma once
 
 #include <memory>
@@ -27,13 +27,13 @@ std::vector<double> reference_heights(const Surface& surface, const HeightSystem
 
 // Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
 // the reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by the
-// reference height; both are solved for on the control points. The offset is the part of the compressed
-// height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel B-splines extend
-// ratio and offset to all points.
+// reference height. The system of the control points is solved for both heights. The offset is the part of
+// the compressed height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel
+// B-splines extend ratio and offset to all points.
 //
-// Reliefs differ from exact reliefs by about 1 % of the height (root mean square), layered reliefs by 1 to 4
-// %. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run concurrently if each has its
-// own workspace.
+// The heights differ from those of exact mode by about 1 % of the relief's height (root mean square), or by 1
+// to 4 % in layered reliefs. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run
+// concurrently if each has its own workspace.
 class SubspaceModel {
  public:
   // Scratch memory, so that frames allocate nothing.

@@ -50,7 +50,7 @@ struct SlopeInput {
   std::span<const PointLayers> layers = {};  // only for the layered style
   std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
   std::span<const std::uint16_t> attention =
-      {};  // levels_of() the attention; empty if the shape has no attention
+      {};  // the result of levels_of(); empty if the shape has no attention
 };
 
 // Writes the target slope of every point. For Style::paper_weights it is compressed_slope() with w = w_k w_b.

@@ -38,8 +38,8 @@ struct Boundary {
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing = {});
 
-// Returns the boundary of points of even density. Boundary points are the corners of outside triangles and
-// the hull, and points that are in no inside triangle.
+// Returns the boundary of points of even density. Boundary points are the corners of outside triangles, the
+// points on the hull, and the points that are in no inside triangle.
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho);
 
 // Returns for each of `points` points whether it is a corner of an outside triangle, on the hull, or in no

@@ -40,7 +40,7 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
 struct NormalisedCurvature {
   std::vector<float> k;  // per point: normalised mean curvature, in [-1, 1]
   double delta = 0;      // standard deviation of |k|; 0 for a surface without curvature
-  double unit = 0;       // the mean curvature for k = 1; larger values were clipped
+  double unit = 0;       // the mean curvature that k = 1 represents; larger ones were clipped
 };
 
 // Divides the curvatures by the 99th percentile of their absolute values and clips them to [-1, 1], so that k

@@ -64,7 +64,8 @@ struct DepthOptions {
   DepthValues values = DepthValues::depth;
   int channel = 0;  // number of the channel to read, from 1; 0 for the only channel
   std::optional<DepthCamera> camera;
-  // Without a camera: the depth from the nearest to the farthest point, as a share of the picture's longer side.
+  // Without a camera: the depth from the nearest to the farthest point, as a share of the picture's longer
+  // side.
   double range = .5;
   // The background lies behind a depth jump all around the figure. `automatic` keeps the background of images
   // with a camera and of images of heights. If there is no such jump, `drop` removes far depths, provided
@@ -91,7 +92,7 @@ struct DepthCloud {
   Cloud cloud;                 // seen from +Z, +Y up, in pixels; all normals face the viewer
   int reduction = 1;           // each point represents reduction x reduction pixels
   std::size_t missing = 0;     // number of pixels without a depth
-  std::size_t marked = 0;      // the part of `missing` whose value marks a missing depth, such as 1e10
+  std::size_t marked = 0;      // number of pixels whose value, such as 1e10, marks a missing depth
   double marker = 0;           // the value that marks a missing depth; the largest if there are several
   std::size_t background = 0;  // number of points removed with the background
   std::size_t blur = 0;        // number of points removed as blur

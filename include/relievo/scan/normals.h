@@ -20,8 +20,8 @@ Vec3f unit_normal(const Vec3& n);
 // remaining normals are 0.
 void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
-// Reverses the normals of a cloud in view coordinates that face away from the viewer, so that all have z >=
-// 0.
+// Reverses the normals that face away from the viewer, so that all normals have z >= 0. The cloud is in view
+// coordinates.
 void turn_to_viewer(Cloud& viewed);
 
 // Makes the signs of the normals consistent after turn_to_viewer(). `seen` are the visible points; those

@@ -10,9 +10,9 @@ namespace relievo {
 inline constexpr std::size_t spacing_neighbours = 8;
 
 struct Spacing {
-  // The larger of two numbers, in the cloud's units: the median of `local` over all points, and a quarter of
-  // its 98 % quantile, which is larger in clouds of very uneven density. rho is 0 if there are fewer than 2
-  // points or almost all points coincide.
+  // The sampling distance, in the cloud's units. It is the larger of two numbers: the median of `local`, and
+  // a quarter of the 98 % quantile of `local`. The second number is larger only in clouds of very uneven
+  // density. rho is 0 if there are fewer than 2 points or almost all points coincide.
   double rho = 0;
   bool is_uneven = false;  // whether rho is a quarter of the 98 % quantile
   // The local spacing of each point, sqrt(pi r^2 / k), where r is the distance to the k-th nearest other

@@ -33,9 +33,9 @@ struct SupportPlane {
 // `viewed` is in view coordinates and has normals, `visible` are the indices of its visible points, and rho
 // is its sampling distance. A plane is a table if it is level from left to right and rises away from the
 // viewer; other planes that face the viewer are backgrounds. To exclude the faces of solids, nearly all
-// points off the plane must be in front of it. Most of them must stand over the hull of the points on the
-// plane, and rise far above the plane, compared with their extent. The result has the same bits for any
-// number of threads.
+// points off the plane must be in front of it. Most of these points must stand over the hull of the points on
+// the plane. They must also rise far above the plane, compared with the width of the area that they cover on
+// it. The result has the same bits for any number of threads.
 std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<const Index> visible,
                                                double rho);
 

@@ -36,8 +36,8 @@ struct Surface {
   // The table or background, in the coordinates of `points`; empty if none was found. Its points are left out
   // if View::has_plane is false.
   std::optional<SupportPlane> plane = {};
-  double measured_noise = 0;  // noise along the normals (standard deviation) in rho; 0 if small
-  double removed_noise = 0;   // noise that was removed: as the view asks, by default the measured noise
+  double measured_noise = 0;  // noise along the normals (standard deviation), in rho; 0 if it is small
+  double removed_noise = 0;   // noise that was removed, in rho: that of View::denoise, or the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // whether the cloud's normals pointed inwards
 

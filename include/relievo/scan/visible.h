@@ -15,10 +15,10 @@ namespace relievo {
 //
 // Every point that faces the viewer is drawn into a depth buffer as a disc. The disc is oriented by the
 // normal, and its size follows from the local spacing, so that there are no gaps even if the density varies.
-// A point is visible if it faces the viewer and is at most the tolerance behind the buffer's depth. Small
-// connected sets of points are not visible and hide nothing. In a height field all points that face the
-// viewer are visible. The depth buffer replaces the cells of 2 rho in the paper's section 3.2, which let
-// hidden points through and lose points on slopes.
+// A point is visible if it faces the viewer and is hardly behind the buffer's depth: by at most 2 local
+// spacings, divided by the z of its normal. Small connected sets of points are not visible and hide nothing.
+// In a height field all points that face the viewer are visible. The depth buffer replaces the cells of 2 rho
+// in the paper's section 3.2, because these let hidden points through and lose points on slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing);
 
 struct VisiblePoints {

@@ -72,8 +72,8 @@ class Cholesky {
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
   // Solves by substitution. Then refines the solution in double precision until the largest element of the
-  // residual is 1e-13 of the largest element of b or no longer decreases. Two substitutions are usually
-  // enough.
+  // residual is at most 1e-13 times the largest element of b, or no longer decreases. Two substitutions are
+  // usually enough.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 

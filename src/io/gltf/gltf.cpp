@@ -336,7 +336,7 @@ class GltfReader {
   }
 
   // Adds triangles; `first` is added to the indices of their vertices. If the transform mirrors, the order of
-  // their corners is reversed, because they would face inwards.
+  // their corners is reversed, because otherwise the triangles would face inwards.
   void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first,
                      bool is_mirrored) {
     const auto before = static_cast<std::ptrdiff_t>(triangles_.size());

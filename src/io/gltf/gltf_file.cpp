@@ -25,8 +25,8 @@ constexpr std::array<ComponentType, 6> component_types = {{{5120, NumberType::in
                                                            {5126, NumberType::float32, 1}}};
 
 // The largest number of vectors in an accessor without a buffer view. Its numbers are 0, except those that a
-// sparse accessor replaces, so that a small file could ask for any number of zeros. No mesh has this many
-// vertices at the origin.
+// sparse accessor replaces. Therefore even a small file could ask for any number of zeros. No mesh has this
+// many vertices at the origin.
 constexpr std::size_t most_zeros = 1 << 20;
 
 std::size_t components_of(const Json& accessor) {

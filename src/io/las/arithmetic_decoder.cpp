@@ -5,7 +5,7 @@ namespace {
 
 constexpr unsigned symbol_bits = 15, bit_bits = 13;  // bits per probability of a symbol, and of a bit
 
-// The number of a difference's highest bits that a model decodes; the lower bits have no model.
+// A model decodes at most this many of the highest bits of a difference; the lower bits have no model.
 constexpr std::uint32_t modelled_bits = 8;
 
 }  // namespace

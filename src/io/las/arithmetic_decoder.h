@@ -24,7 +24,7 @@ class SymbolModel {
   std::vector<std::uint32_t> starts_;  // start of each symbol's part of the interval, in units of 2^-15
   std::vector<std::uint32_t> counts_;
   std::vector<std::uint32_t>
-      table_;  // for the highest bits of a number: the first symbol to try; empty if there are few symbols
+      table_;  // the first symbol to try, by the highest bits of a number; empty if there are few symbols
 };
 
 // The frequencies of 0 and 1.

@@ -55,7 +55,7 @@ constexpr std::uint32_t chunks_vary = ~0U;
 constexpr std::uint64_t most_points_a_byte = 256;
 
 // Reads the variable-length record of LASzip and the table of chunks. Checks that all chunks are within the
-// file, and have as many points as the header promises. Errors name the byte.
+// file, and that together they have as many points as the header promises. Errors name the byte.
 class LayoutReader {
  public:
   LayoutReader(const Source& source, const LasHeader& header) : source_(source), header_(header) {}

@@ -1,5 +1,5 @@
-// Decodes the parts of points ("items") as LASzip has written them since 2011: version 2, or version 1 of
-// wave packets.
+// Decodes the parts of points ("items") as LASzip has written them since 2011. In the formats 0 to 5 these
+// are items of version 2, or version 1 for wave packets; in the formats 6 to 10 they have version 3 or 4.
 #include "io/las/point_items.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
   const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
   const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
   colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
-  if (!has(6)) {  // otherwise green and blue equal red
+  if (!has(6)) {  // green and blue equal red
     colour[1] = colour[2] = colour[0];
     return;
   }

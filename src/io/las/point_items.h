@@ -1,5 +1,5 @@
-// Decodes the parts of points in the point formats 0 to 5. One arithmetic decoder reads all parts, point by
-// point.
+// Decodes the parts of points. In the point formats 0 to 5, one arithmetic decoder reads all parts, point by
+// point. In the formats 6 to 10, each part has its own decoder.
 #pragma once
 
 #include <array>

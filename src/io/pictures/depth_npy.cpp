@@ -1,5 +1,5 @@
-// Reads arrays saved by NumPy. Only two-dimensional arrays of numbers are pictures; dimensions of length 1 are
-// ignored. src/io/npy_points.cpp reads those that are points.
+// Reads arrays saved by NumPy. Only two-dimensional arrays of numbers are pictures; dimensions of length 1
+// are ignored. src/io/npy_points.cpp reads arrays of points.
 #include "io/npy.h"
 #include "io/pictures/pictures.h"
 #include "relievo/core/text.h"

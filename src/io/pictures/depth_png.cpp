@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::uint32_t longest_side_px = 1'000'000;
 
-// Passes the bytes of a file to libspng without ancillary chunks, except transparent colours. Ancillary
-// chunks may be large or broken, and libspng would allocate the memory that they claim to need.
+// Passes the bytes of a file to libspng, but leaves out all ancillary chunks except that of transparent
+// colours. Ancillary chunks may be large or broken, and libspng would allocate the memory that they claim to
+// need.
 class NeededChunks {
  public:
   explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}

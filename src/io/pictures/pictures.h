@@ -13,10 +13,10 @@ namespace relievo::io {
 // 2^27 depths take 512 MB of memory. A picture that promises more is treated as broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// A picture that promises too much for the size of its file is treated as broken: a PNG with more than this
-// many bytes per byte of the file, a TIFF or JPEG with more than this many pixels per byte. The factor is
-// slightly above 1032, the best compression of deflate, and far above 256, the largest number of pixels per
-// byte of a JPEG scan.
+// A picture that promises too much for the size of its file is treated as broken. A PNG may promise at most
+// this many bytes of pixels per byte of the file, a TIFF or JPEG at most this many pixels per byte. The
+// factor is slightly above 1032, the best compression of deflate, and far above 256, the largest number of
+// pixels per byte of a JPEG scan.
 inline constexpr std::size_t best_packing = 1100;
 
 // Return whether the content begins like a file of this format.
