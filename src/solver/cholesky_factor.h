@@ -12,13 +12,14 @@
 
 namespace relievo::solver {
 
-// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly tree, or
-// a single supernode above them. The division into tasks depends only on the matrix, not on the number of threads.
+// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly
+// tree, or a single supernode above such subtrees. The division into tasks depends only on the matrix, not on
+// the number of threads.
 //
-// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary row is a
-// row of the task's supernodes that is a column of another task, an ancestor. A task writes only to its own work
-// vector. In its boundary rows it leaves amounts, which its parent adds to its own work vector. So results do not
-// depend on the number of threads.
+// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary
+// row is a row of the task's supernodes that is a column of another task, an ancestor. A task writes only to
+// its own work vector. In its boundary rows it leaves amounts, which the parent task adds to the parent's
+// work vector. So results do not depend on the number of threads.
 struct Task {
   Index first_column = 0, end_column = 0;
   Index first_node = 0, end_node = 0;      // range of the task's supernodes
@@ -36,9 +37,9 @@ struct Task {
 // The largest size of the work vector of a task that is a subtree, because positions in it are stored in 16 bits.
 inline constexpr Index largest_subtree_work_vector = 0xFFFF;
 
-// The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is stored
-// once, at the earlier column. An entry between two tasks is stored in both. So each task can compute its rows of a
-// product with the matrix without writing to the rows of the other task.
+// The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is
+// stored once, at the earlier column. An entry between two tasks is stored in the rows of both tasks. So each
+// task can compute its rows of a product with the matrix without writing to the rows of another task.
 struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};

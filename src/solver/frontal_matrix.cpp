@@ -130,9 +130,14 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// Inverts the right half of the columns, then the left half. Let the left columns be [La; Lb; Ld] and the right ones
-// [Lc; Le]. First the right ones are replaced by their inverse [Wc; We]. Then the rows below La become
-// [Wc Lb; Ld + We Lb]. Last the left columns are inverted.
+// Inverts the right half of the columns, then the left half. The blocks of both halves change in this order:
+//
+//   given:          right columns:   rows below La:       left columns:
+//   La              La               La                   La^-1
+//   Lb  Lc          Lb  Wc           Wc Lb       Wc       -Wc Lb La^-1           Wc
+//   Ld  Le          Ld  We           Ld + We Lb  We       -(Ld + We Lb) La^-1    We
+//
+// Wc is Lc^-1, and We is -Le Lc^-1.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;

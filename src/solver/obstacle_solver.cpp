@@ -98,9 +98,10 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Returns the next coarser level, with every other node of every other row. The bending stiffness of a coarse node is
-// the least of those of the fine node at its position and of that node's free neighbours. Its tension is the harmonic
-// mean of those of the fine node and its four neighbours. So thin hinges between stiff regions remain.
+// Returns the next coarser level, with every other node of every other row. A coarse node gets the least
+// bending stiffness among the fine node at its position and the free neighbours of that fine node. It gets
+// the harmonic mean of the tensions of the fine node and its four neighbours. So thin hinges between stiff
+// regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -257,8 +258,8 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // The stiffness of a coarse tie is the sum of those of several fine ties. The sweeps would not converge with it, so
-    // the factors of the ties are reduced.
+    // A coarse tie has the sum of the stiffnesses of several fine ties. The sweeps would not converge with
+    // this sum, so the factors of the ties are reduced.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);
