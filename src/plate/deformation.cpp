@@ -13,7 +13,9 @@
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm = 4e-3;  // several units in the last place at 10 m, and finer than any tool
+// Edges up to this length are not split. It is finer than any tool, and in single precision it is several
+// units in the last place of coordinates of 10 m.
+constexpr double shortest_mm = 4e-3;
 constexpr int most_refinements = 60;  // each refinement halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 

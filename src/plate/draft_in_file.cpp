@@ -29,8 +29,8 @@ struct StoredFront {
 
   PlaneMesh field() const { return {plane, triangles, is_fixed}; }
 
-  // Frees all front points except the lowest and the highest ones, points of the outline (top of the
-  // walls) and points at the outline's height (flat ground).
+  // Lets the heights of all front points change, except of the lowest and the highest points, points of the
+  // outline (top of the walls) and points at the outline's height (flat ground).
   void free_inner_points(const Solid& solid) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const Triangle& t : triangles)

@@ -65,9 +65,10 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre of the smallest circle around the points among the circles that are centred midway
-// between left and right. The smallest of all circles could be visibly off this middle. The circles are
-// measured in coordinates divided by `scale`, so that they can stand for ellipses.
+// Compares the circles around the points whose centres are midway between the leftmost and the rightmost
+// point. Returns the centre of the smallest one. Without this restriction, the centre could be visibly off
+// the middle. The circles are measured in coordinates divided by `scale`, so that they can stand for
+// ellipses.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -158,7 +159,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
 }
 
 // Returns the bounding box of the points. If the options have a size, returns a box with the same centre
-// instead; it has this size less the margin on all sides.
+// instead. Its size is that of the options minus the margin on all sides.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);

@@ -28,7 +28,7 @@ std::vector<Vec2> back_of(const Solid& plate) {
   return places;
 }
 
-// A point on one of the two sides that will be joined.
+// A point on one of the plate's two sides that will be joined.
 struct SidePoint {
   double along, z;
   Index point;

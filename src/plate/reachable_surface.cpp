@@ -19,7 +19,7 @@ namespace {
 // samples_for() they are usually a quarter and a twelfth of the tool's radius.
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
-constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this is left above it
+constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this much is left above it
 // Largest distance by which a point is lifted. A point that would have to be lifted more is removed.
 constexpr double most_lift_mm = .01;
 

@@ -258,10 +258,10 @@ class Simplifier {
     if (off != no_index) found.candidates.push_back({off, error, i});
   }
 
-  // Measures the errors on an edge of the original. The difference of two piecewise flat surfaces has its
-  // extremes at the original's points, which include the approximation's, and where edges of both surfaces
-  // cross. An edge within one triangle crosses no edge of the approximation. If the triangles along an
-  // edge are unchanged, its errors are unchanged, too.
+  // Measures the errors on an edge of the original. The error is the difference of two piecewise flat
+  // surfaces. Its extremes are at points of the original, which has all points of the approximation, and at
+  // crossings of edges of both surfaces. An edge within one triangle crosses no edge of the approximation. If
+  // the triangles along an edge are unchanged, its errors are unchanged, too.
   void measure_edge(Index e, Found& found) {
     const Edge& edge = edges_[e];
     const Index begin = containing_[edge.a], end = containing_[edge.b];
