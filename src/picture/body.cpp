@@ -74,8 +74,8 @@ PlateParts plate_parts(const Solid& solid) {
   return out;
 }
 
-// Level triangles are ignored. The level triangles of the ground are large and thin, and would spread the
-// shading of the relief's rim across the ground.
+// Only triangles of the region `relief` count. The triangles of the ground are large and thin, and would
+// spread the shading of the relief's rim across the ground.
 std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {

@@ -83,7 +83,8 @@ class SolidBody {
   std::vector<Vec3f> normals_;
 };
 
-// Returns unit normals of the relief's points, as means weighted by area; zero for all other points.
+// Returns a unit normal for each point of the relief: the mean normal of its triangles, weighted by their
+// areas. All other points get zero.
 std::vector<Vec3f> relief_normals(const Solid& solid);
 
 }  // namespace relievo

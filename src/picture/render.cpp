@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the height field from which profiles are taken. Pictures of
-// profiles have fewer pixels.
+// The longer side, in pixels, of the height field from which profiles are taken. Pictures of profiles have
+// fewer pixels than this.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {
@@ -27,8 +27,8 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// The direction to the lamp. It is closer to the viewer's direction than the lamp for reliefs, because
-// large parts of a whole body face away from the light.
+// The direction to the lamp for scans. It is closer to the viewer's direction than the direction to the lamp
+// for reliefs, because large parts of a whole body would face away from that lamp.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc, in sampling distances. With this radius, randomly scattered points leave few

@@ -13,8 +13,9 @@ constexpr float lamp_strength = .77F, sky_strength = .23F;
 // the lamp get some shading, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the plate's
-// normal is `usual_lamp_z`. At this cosine, the lamp is as far to the left and as far above as in front.
+// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine of the angle between the
+// lamp's direction and the plate's normal is `usual_lamp_z`. A lamp with this cosine is equally far to the
+// left of the plate, above it and in front of it.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
