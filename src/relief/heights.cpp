@@ -155,8 +155,9 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Returns the coefficients of the right-hand side of equation (9). The right-hand side of point p is the sum
-// over its edges of weight / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of equation (9). The right-hand side of point p is a sum
+// over its edges. The edge to point q contributes weight / 2 (s_p + s_q) . (p - q), where s are the slopes at
+// both points.
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {

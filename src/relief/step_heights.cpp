@@ -86,9 +86,10 @@ std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   return numbers;
 }
 
-// Computes the mean position and normal on each side of the walls, over about two sampling distances.
-// Single points would not do: at a chin before a neck, for example, the front can turn away so far that
-// its last rows of points are nearly as deep as the back. The means still differ by the whole depth.
+// Computes the mean position and normal on each side of the walls, over about two sampling distances. Single
+// points would not do. A chin before a neck, for example, can turn away from the viewer so far that its last
+// rows of points are nearly as deep as the neck. The mean positions still differ by the distance in depth
+// between chin and neck.
 class MeansBesideWalls {
  public:
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {

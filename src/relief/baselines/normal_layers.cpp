@@ -39,8 +39,8 @@ Eigen::Quaternionf share_of_turn(const Vec3f& from, const Vec3f& to, double shar
 
 std::vector<Vec3f> base_normals(const Surface& surface, double scale) {
   const Groups<Index> neighbours = neighbours_of(surface);
-  // One pass averages the point and six neighbours 1.07 rho away, which has a variance of 0.49 rho^2 along
-  // each axis.
+  // One pass averages the point and six neighbours 1.07 rho away. The weights of this mean have a variance of
+  // 0.49 rho^2 along each axis.
   const double sigma = scale * surface.longer_side() / surface.rho;
   const auto passes = static_cast<int>(std::ceil(sigma * sigma / .49));
   std::vector<Vec3f> normals = surface.normals, last;

@@ -150,9 +150,9 @@ std::size_t HeightCorrection::Workspace::memory() const {
   return sum;
 }
 
-// Returns limits with a boundary stiffness that falls from 1 at a height share of 1 to 0.3 at 0.825.
-// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette
-// (docs/decisions/height-correction.md).
+// Returns limits whose boundary stiffness depends on the height share. It is 1 at a height share of 1, falls
+// linearly to 0.3 at 0.825, and stays there. Strong compression needs all of the height, so the relief may
+// then stand off the base at the silhouette (docs/decisions/height-correction.md).
 HeightLimits HeightLimits::of(double height, const Shape& shape) {
   constexpr double least = .3, fall = 4;
   return {height, std::max(1 - fall * (1 - height_share(shape)), least), shape.planes};
