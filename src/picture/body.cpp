@@ -14,7 +14,7 @@ namespace {
 // At edges of a plate, normals differ by more than this angle; between the facets of round parts they differ by less.
 constexpr double sharpest_deg = 20;
 
-// Tolerance for the heights of points on the ground, which differ slightly because solids are
+// Tolerance for the heights of points on the ground. These heights differ slightly, because solids are
 // rounded to single precision.
 constexpr double rounding_mm = 1e-6;
 

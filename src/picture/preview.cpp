@@ -17,7 +17,8 @@ namespace {
 
 constexpr double preview_padding =
     .06;  // space for the shadow around the plate, as a share of the picture's longer side
-// The largest longer side of each of the two pictures, which have 3 samples per pixel in each direction.
+// Each of the two pictures of a preview has 3 samples per pixel in each direction. Its longer side has at
+// most this many pixels.
 constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
 // Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is

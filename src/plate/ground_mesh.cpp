@@ -15,7 +15,7 @@
 namespace relievo {
 namespace {
 
-constexpr double most_points = 2e5;  // most points of the ground; a relief has about as many
+constexpr double most_points = 2e5;  // largest number of points of the ground; a relief has about as many
 
 // Returns whether three edges of length `step` from the point `from` are fine enough: none deviates from the
 // deformed surface by more than refine() allows. Edges across a crease are ignored, because refine() splits

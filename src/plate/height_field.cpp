@@ -32,7 +32,8 @@ struct Chord {
   Vec2 left, right;  // x and z
 };
 
-// Returns the segment of the line at `y` inside a triangle; the line must intersect the triangle.
+// Returns the part of the line of constant `y` that is inside a triangle. The line must intersect the
+// triangle.
 Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
   chord.right.x() = -chord.left.x();

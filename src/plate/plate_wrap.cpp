@@ -16,7 +16,8 @@
 namespace relievo {
 namespace {
 
-// The share of the smallest radius of the wrap that the bent plate must leave free, so that no point reaches the axis.
+// Between the bent plate and the axis, at least this share of the wrap's smallest radius must stay free, so
+// that no point reaches the axis.
 constexpr double least_free = .01;
 
 // Returns the points of the plate's back. The back is flat before bending and has the extent of the plate.

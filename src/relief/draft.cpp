@@ -126,7 +126,8 @@ class DraftSearch {
   }
 
  private:
-  // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
+  // The search ends at u = e^4.5. Beyond this, the weights of equation (6) are nearly 1 in all layers, unless
+  // gamma is large.
   static constexpr double largest_log_u = 4.5;
 
   // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief is 64

@@ -56,8 +56,8 @@ struct HeightEquations {
   Eigen::SparseMatrix<double> A;   // lower triangle of the weighted Laplacian; one row per unknown
   // The edges of each point, in ascending order of the points at their other ends. Every point also has an
   // edge to itself, so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half
-  // its weight times the vector from the other point; it is 0 at boundary points, whose heights are 0.
-  // SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
+  // its weight times the vector to the point from the other end. It is 0 at boundary points, whose heights
+  // are 0. SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
   Groups<MatrixEntry> edges;
 };
 

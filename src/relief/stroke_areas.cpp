@@ -178,7 +178,7 @@ std::vector<float> turning_of(const Surface& surface) {
     return Vec3(Vec3f(xy[i].x(), xy[i].y(), z[i].x()).cast<double>().normalized());
   };
   std::vector<double> angles(xy.size(), 0),
-      lengths(xy.size(), 0);  // sums of squares: degrees^2, (% of the longer side)^2
+      lengths(xy.size(), 0);  // sums of squares; units: degrees, % of the longer side
   const auto all = [](Index, Index) { return true; };
   each_link(surface, all, [&](Index a, Index b) {
     const double angle =

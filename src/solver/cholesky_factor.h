@@ -25,7 +25,7 @@ struct Task {
   Index first_node = 0, end_node = 0;      // range of the task's supernodes
   Index parent = no_index;                 // number of the parent task, always higher than that of this task
   Index first_child = 0, end_child = 0;    // range in Factor::children
-  Index first_boundary = 0, boundary = 0;  // start and size of the range in boundary and to_parent
+  Index first_boundary = 0, boundary = 0;  // start and size of its range in Factor::boundary and to_parent
   std::size_t work_begin = 0;              // start of the task's work vector in the workspace
   std::size_t values = 0, end_values = 0;  // range in Factor::values
   std::size_t rows = 0, end_rows = 0;      // range in Factor::rows

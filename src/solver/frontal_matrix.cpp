@@ -116,8 +116,9 @@ Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
 
-// Eliminates the left half of the columns, updates the right half by a matrix product, and eliminates that. Halves are
-// halved again until few columns are left, so that matrix products do nearly all arithmetic.
+// Eliminates the left half of the columns, updates the right half by a matrix product, and then eliminates
+// the right half. Halves are halved again until few columns are left, so that matrix products do nearly all
+// arithmetic.
 Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
                             std::span<const double> smallest_pivot) {
   if (width <= narrow) return RELIEVO_WIDE(eliminate(front, begin, width, smallest_pivot));

@@ -34,10 +34,9 @@ class OrderPull {
   bool empty() const { return directions_.empty(); }
   std::size_t memory() const;
 
-  // Writes `hold` and `load` so that for some constant c, c + 1/2 sum(hold x^2) - sum(load x) is an upper bound of the
-  // energy of a field x. At x = b the bound equals the energy. `heights` are the heights without the field; `lack` is
-  // scratch memory.
-  // All spans have an element per node.
+  // Writes `hold` and `load` so that for some constant c, c + 1/2 sum(hold x^2) - sum(load x) is an upper
+  // bound of the energy of a field x. At x = b the bound equals the energy. `heights` are the heights without
+  // the field; `lack` is scratch memory. All spans have an element per node.
   struct Bound {
     std::span<float> load, hold, lack;
   };
