@@ -36,8 +36,9 @@ struct PlateParts {
 // that meet at less than 20 degrees.
 PlateParts plate_parts(const Solid& solid);
 
-// A body to draw. Its x and y are relative to the middle of its box, its z to the ground. Triangles refer to
-// points by index: first the points with heights, then `box_corners`. A DrawnBody does not own its arrays.
+// A body to draw. x and y are measured from the middle of its box, and z is measured from the ground.
+// Triangles refer to points by index: first the points with heights, then `box_corners`. A DrawnBody does not
+// own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
@@ -72,7 +73,7 @@ class SolidBody {
  public:
   explicit SolidBody(const Solid& solid);
 
-  // Returns the body, which is valid as long as this object and the solid.
+  // Returns the body, which is valid as long as this object and the solid exist.
   DrawnBody body() const;
 
  private:

@@ -19,8 +19,8 @@ constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
-// The exponent is between 1 (linear) and 2.2 (sRGB). Most of a relief has middle tones, which an exponent of
-// 2.2 would make flat and pale.
+// The exponent for the conversion to display values is between 1 (linear) and 2.2 (sRGB). Most of a relief
+// has middle tones, which an exponent of 2.2 would make flat and pale.
 constexpr float display_gamma = 1.45F;
 
 // Brightness above this value is compressed gradually, because clipping would be visible.

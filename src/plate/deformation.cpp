@@ -102,7 +102,7 @@ class Refiner {
   // Returns where to split an edge, as a share of its length; 0 if the edge is within the tolerance. The
   // result is the same for both triangles of the edge. If the edge crosses a crease, only the crossing is
   // measured, because the deviation is largest there, and splits at midpoints would approach the crease
-  // slowly. Other edges are sampled twice per feature, so that a wave that is 0 at the midpoint is noticed.
+  // slowly. Other edges have two samples per feature, so that a wave that is 0 at the midpoint is noticed.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];

@@ -56,8 +56,8 @@ class FieldRows {
  public:
   FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
 
-  // Draws a triangle: raises each pixel whose centre is in the triangle or on its edge to the
-  // triangle's height at the centre.
+  // Draws a triangle. If the centre of a pixel is in the triangle or on its edge, the pixel gets at least the
+  // triangle's height at this centre.
   void enter(const std::array<Vec3, 3>& corners) {
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),

@@ -26,8 +26,9 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex outline that grows with its size. `line` is the line of the side, `tangent` the
-// parallel tangent of the curve. They coincide where the outline is straight.
+// One side of a convex polygon that approximates the curve of an outline and grows with its size. `line` is
+// the line of the side. `tangent` is the parallel tangent of the curve. They coincide where the curve is
+// straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
@@ -65,10 +66,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Compares the circles around the points whose centres are midway between the leftmost and the rightmost
-// point. Returns the centre of the smallest one. Without this restriction, the centre could be visibly off
-// the middle. The circles are measured in coordinates divided by `scale`, so that they can stand for
-// ellipses.
+// Considers circles around the points. Their centres are midway between the leftmost and the rightmost point;
+// other centres could be visibly off this middle. Returns the centre of the smallest such circle. The circles
+// are measured in coordinates divided by `scale`, so that they can stand for ellipses.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {

@@ -35,7 +35,7 @@ class Limiter {
     std::ranges::copy(triangles_inside(model.surface()), std::back_inserter(triangles_));
   }
 
-  // Returns whether the slopes of relief and base together stay below kept_slope of the limit.
+  // Returns whether the slopes of relief and base together stay below a share of the limit, kept_slope.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_slope * options_.max_slope;
   }

@@ -49,10 +49,10 @@ class TriangleSlopes {
 
 // Minimises the weighted sum over triangles of |slope - target slope|^2 under |slope + slope of the base| <=
 // limit. The method is ADMM (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit, and adds the difference
-// that the projection makes to a dual variable. Then it fits heights to the target slopes and the projected
-// slopes, by a system that is factored once. Iterations end when hardly any triangle exceeds the limit, or
-// after 200 of them. Each call starts from the result of the last one. Not for concurrent use.
+// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit. The projection changes
+// the slope; this change is added to a dual variable. Then heights are fitted to the target slopes and the
+// projected slopes, by a system that is factored once. Iterations end when hardly any triangle exceeds the
+// limit, or after 200 of them. Each call starts from the result of the last one. Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is the system of `surface`; both must outlive this object. `base` has a height per point, or is

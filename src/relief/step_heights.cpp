@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// The limit of the slopes that explain a part of a depth difference. Near a silhouette, normals steeper
-// than this are too inaccurate to predict depth.
+// Slopes explain a part of a depth difference. A slope steeper than this counts as this slope, because near a
+// silhouette, steeper normals are too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
 struct SteppedEdge {

@@ -165,8 +165,8 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-// Bisects by the order in which a breadth-first search visits the vertices, which replaces a coordinate. The search
-// starts at a vertex at the rim of the graph.
+// Bisects by the order in which a breadth-first search visits the vertices. This order replaces a coordinate.
+// The search starts at a vertex at the rim of the graph.
 Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());

@@ -34,7 +34,8 @@ struct Task {
   Index own() const { return end_column - first_column; }
 };
 
-// The largest size of the work vector of a task that is a subtree, because positions in it are stored in 16 bits.
+// A task that is a subtree has a work vector of at most this size, because positions in it are stored in 16
+// bits.
 inline constexpr Index largest_subtree_work_vector = 0xFFFF;
 
 // The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is

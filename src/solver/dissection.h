@@ -61,7 +61,7 @@ Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions)
 
 // Returns the vertices in an elimination order that causes little fill. The order is computed recursively:
 // separators come after both sides; small parts are ordered by minimum degree. `positions` (finite, one per
-// vertex) only guide the search: bad positions cause more fill, but never a wrong result. The search is
+// vertex) only guide the search. Bad positions cause more fill, but never a wrong result. The search is
 // faster if nearby vertices have similar indices. The result is the same for any number of threads.
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 

@@ -61,7 +61,7 @@ RELIEVO_INLINE void subtract(const Product& p) {
   }
 }
 
-// Adds factor x to y for the elements [from, to), and for up to three padding elements after them.
+// Adds factor * x to y for the elements [from, to), and for up to three padding elements after them.
 RELIEVO_INLINE void add_multiple(double* y, const double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(y + i) += at(x + i) * factor;
 }

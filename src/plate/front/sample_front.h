@@ -11,8 +11,9 @@ namespace relievo {
 struct FrontSampling {
   // Largest distance between samples, > 0, except where the surface is nearly plane.
   double resolution_mm = .15;
-  // Largest angle between neighbouring facets, in radians, where the curvature is even. Where the surface
-  // is flatter, samples are up to 8 steps of `resolution_mm` apart; where it is more curved, half a step.
+  // Largest angle between neighbouring facets, in radians, where the curvature is even. Where the surface is
+  // flatter, samples are up to 8 steps of `resolution_mm` apart. Where it is more curved, they are half a
+  // step apart.
   double facet_angle = .034;
 };
 

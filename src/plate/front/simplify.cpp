@@ -136,9 +136,9 @@ class Simplifier {
     return count;
   }
 
-  // Removes candidates that would exceed the limit of triangles. If there is a limit, the half of the
-  // candidates with the smaller errors is postponed, too. Then errors are similar everywhere when the limit
-  // is reached. A point adds two triangles; a point on the hull adds one.
+  // Removes candidates with which the number of triangles would exceed its limit. If there is a limit, the
+  // half of the candidates with the smaller errors is postponed, too. Then errors are similar everywhere when
+  // the limit is reached. A point adds two triangles; a point on the hull adds one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles
@@ -283,9 +283,10 @@ class Simplifier {
     });
   }
 
-  // Chooses the point that is added for an error on an edge of the original. The first of these that is not chosen yet
-  // is added: the nearer end, the farther end, the two opposite corners. Once all four are chosen, the edge is in the
-  // Delaunay triangulation, unless the four lie on one circle. In that case the crossing becomes a new point.
+  // Chooses the point that is added for an error on an edge of the original. It is the first one of the
+  // following points that is not chosen yet: the nearer end, the farther end, the two opposite corners. Once
+  // all four are chosen, the edge is in the Delaunay triangulation, unless the four lie on one circle. In
+  // that case the crossing becomes a new point.
   Candidate with_point(Candidate c) const {
     if (c.point != no_index) return c;
     const Edge& edge = edges_[c.edge];

@@ -23,7 +23,8 @@ Groups<Index> neighbours_of(const Surface& surface) {
   });
 }
 
-// Returns the weight of a neighbour's normal: Tukey's biweight, which is 0 above 40 degrees.
+// Returns the weight of a neighbour's normal: Tukey's biweight, which is 0 if the normals are more than 40
+// degrees apart.
 float likeness(const Vec3f& a, const Vec3f& b) {
   constexpr float largest_sq = .468F;  // square of the distance of unit vectors 40 degrees apart
   const float rest = std::max(0.F, 1 - (a - b).squaredNorm() / largest_sq);

@@ -27,17 +27,18 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // above `limited_coverage`. Nearer to the silhouette, heights rise steeply, so the limits of neighbouring
 // nodes would differ widely. There, ties (springs along the silhouette) hold the field instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The least tension, as a share of the tension inside the silhouette. It continues the field
+// The least tension, as a share of the tension inside the silhouette. With this tension, the field continues
 // smoothly outside the silhouette.
 constexpr float least_tension = .1F;
 // The stiffness of a tie is `tie_per_cell` times the length of silhouette in its cell, in cell widths. The
 // unit of stiffness is the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// Parameters of the forces that keep nearer parts higher than farther parts beside them, the near order
-// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer side. If
-// the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher by `largest_step` *
-// tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of the tension across a cell of
-// `cell_size`. The forces fade out at the silhouette, where the relief stands off the base anyway.
+// Parameters of the forces that keep nearer parts higher than farther parts beside them (near order,
+// docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
+// side. Let the depths of a pair differ by d, as a share of the depth range. Then the nearer node should be
+// higher by `largest_step` * tanh(d / `large_difference`), as a share of the relief's height.
+// `order_stiffness` is in units of the tension across a cell of `cell_size`. The forces fade out at the
+// silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -52,8 +53,8 @@ struct Scale {
   Scale(double longer_side, double rho)
       : side(longer_side), cell(side > 0 ? std::max(cell_size * side, least_cell_size * rho) : 1) {}
 
-  // Returns the square of a length in cells. The length is given as a share of the longer side. Returns 0
-  // for a surface without extent.
+  // Converts a length from a share of the longer side to a number of cells, and returns the square of this
+  // number. Returns 0 for a surface without extent.
   float in_cells_squared(double of_side) const {
     return static_cast<float>(std::pow(of_side * side / cell, 2));
   }
@@ -215,8 +216,8 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(coverage_);
 }
 
-// Returns the range of the differences between the heights of points in the cells around a node and the
-// heights interpolated from the lattice.
+// Compares the heights of the points in the cells around a node with the heights interpolated from the
+// lattice. Returns the range of the differences.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
   lattice_.each_cell(node, [&](std::size_t cell, std::size_t) {
@@ -247,7 +248,7 @@ void HeightCorrection::fit(std::span<const Real> heights, const HeightLimits& li
   set_limits(height, w);
   solver::Springs springs{static_cast<float>(limits.boundary_stiffness),
                           static_cast<float>(limits.planes) * height};
-  // Wider cells contain fewer pairs per area, so each pair is stiffer.
+  // A lattice with wider cells has fewer pairs per area, so each pair is stiffer.
   const auto wider = static_cast<float>(side_ > 0 ? cell_ / (cell_size * side_) : 1);
   springs.order = {largest_step * height, order_stiffness * wider * wider};
   sheet_.solve(springs, w.sheet);

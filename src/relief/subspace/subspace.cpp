@@ -27,7 +27,7 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
     options.min = options.min.cwiseMin(p);
     options.max = options.max.cwiseMax(p);
   }
-  constexpr double most_cells = 1024;  // per side
+  constexpr double most_cells = 1024;  // per side of the finest lattice
   options.cell = std::max(.75 * radius, (options.max - options.min).maxCoeff() / most_cells);
   options.levels = 5;
   options.damping = 1e-4;
