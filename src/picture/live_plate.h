@@ -55,7 +55,7 @@ class LivePlate {
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::vector<Index> relief_;      // the surface's points that the plate shows; they are the plate's first points
+  std::vector<Index> relief_;      // the plate's first points: those of the surface that it shows
   std::vector<AddedPoint> added_;  // points of the relief that are not points of the surface
   std::vector<Vec2> places_;       // positions of the front's points, from the middle of the body, in mm
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane

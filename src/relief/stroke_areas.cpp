@@ -82,7 +82,8 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for each triangle side inside the relief with is_wanted(a, b), unless it crosses a depth jump.
+// Calls f(a, b) for each triangle side from a to b inside the relief, if is_wanted(a, b) and the side does
+// not cross a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {

@@ -28,8 +28,8 @@ RELIEVO_INLINE const Double4& at(const double* p) {
   return *reinterpret_cast<const Double4*>(p);
 }
 
-// Subtracts the product from 4 * Height rows and Width columns of C, which stay in registers. Sums over the columns
-// of A and B from `from` to `to`.
+// Subtracts the product from a tile of C with 4 * Height rows and Width columns. The tile stays in registers.
+// Only the columns of A and B from `from` up to, but not including, `to` are multiplied.
 template <int Height, int Width>
 RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
   Double4 sum[Height][Width] = {};

@@ -12,8 +12,9 @@ namespace {
 // remove them. A sweep costs a quarter of a sweep on the next finer level, so all these sweeps take about as long as
 // 14 sweeps of the finest level. For the choice of these numbers see docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
-// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 as the number of nodes per
-// side grows. 1.6 suits the errors of short wavelength that remain on the finer levels.
+// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 as the number of
+// nodes per side of the lattice grows. 1.6 suits the errors of short wavelength that remain on the finer
+// levels.
 constexpr float over_relaxation = 1.6F;
 // The number of sweeps between updates of the forces between pairs of nodes, per level from fine to coarse. More
 // updates improve none of the measures (docs/decisions/near-order.md).

@@ -154,7 +154,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // stays so if the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // these remain if the region has no area
     sample(members[c], share, own);
   }
   return samples;
