@@ -44,8 +44,8 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
 }
 
 // Refines in rounds. Each round samples the new triangles, adds all points that they need, and splits the
-// triangles. Triangles are examined separately, but both triangles of an edge sample the edge at the same
-// points, so they split it at the same point. That avoids T-junctions.
+// triangles. Triangles are examined separately. But both triangles of an edge sample it at the same points,
+// so they split it at the same point. That avoids T-junctions.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)

@@ -20,7 +20,7 @@ struct FieldSampling {
 };
 
 // The heights of a solid's front at the pixels of an image. The box is centred in the image. Its longer side
-// fills the image, but if the size of a pixel is given, a fraction of a pixel can remain on either side.
+// fills the image. But if the size of a pixel is given, a fraction of a pixel can remain on either side.
 struct HeightField {
   double mm_per_pixel = 0;
   Box box;                             // box of the part that is shown

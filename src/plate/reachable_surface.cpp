@@ -141,8 +141,8 @@ Colour colour_of(const Solid& solid, Index i) {
   return solid.colours.empty() ? Colour{} : solid.colours[i];
 }
 
-// Returns the distance between points along the rim's edges: a third of the least distance between two edges,
-// so that no triangle crosses the bevel, but at least the width of two samples.
+// Returns the distance between points along the rim's edges. It is a third of the least distance between two
+// edges, so that no triangle crosses the bevel. But it is at least the width of two samples.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < edges.size(); ++i)

@@ -100,8 +100,8 @@ class HeightSearch {
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps are a tenth longer than secant steps, so that they end slightly above the requested height. That
-    // closes the bracket, which saves a relief.
+    // Steps are a tenth longer than secant steps, so that they end slightly above the requested height. Such
+    // a step closes the bracket and saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
     // Heights grow with u, but more slowly where the slopes of the steepest walls are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;

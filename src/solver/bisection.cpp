@@ -48,7 +48,7 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
 
 // Returns the direction in which the positions spread most: the principal axis of their covariance.
 // Separators perpendicular to it are usually short. If the positions spread equally in all directions,
-// rounding decides; the result is still the same on every machine, because sums, quotients and square roots
+// rounding decides. The result is still the same on every machine, because sums, quotients and square roots
 // have the same bits everywhere.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();

@@ -18,8 +18,8 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// Returns H x if `misfit` is A x, where H is the Hessian of the energy; returns the gradient of the energy if
-// `misfit` is A x - load.
+// H is the Hessian of the energy. Returns H x if `misfit` is A x, and the gradient of the energy if `misfit`
+// is A x - load.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }

@@ -160,9 +160,9 @@ void ObstacleSolver::Level::start(Fields& f) const {
   }
 }
 
-// Makes one step of projected over-relaxation at a node. Moves b towards the minimum of the energy by over_relaxation
-// times the distance, clamps it to its bounds, and updates the moments of the node and its neighbours. Returns the
-// change.
+// Makes one step of projected over-relaxation at a node. Moves b towards the minimum of the energy by
+// over_relaxation times the distance. Then clamps b to its bounds, and updates the moments of the node and
+// its neighbours. Returns the change.
 inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;

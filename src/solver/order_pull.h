@@ -8,9 +8,9 @@
 
 namespace relievo::solver {
 
-// Pairs of nodes at the distances `distances`, in cells, along rows, columns and both diagonals. The nearer node of a
-// pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation), times the shares of both
-// nodes.
+// Pairs of nodes at the distances `distances`, in cells, along rows, columns and both diagonals. The nearer
+// node of a pair should be higher by the product of OrderLimits::height, tanh(|difference of depth| /
+// saturation), and the shares of both nodes.
 struct OrderedPairs {
   std::span<const float> depth;  // per node, larger is nearer
   std::span<const float> share;  // per node, in [0, 1]; nodes with share 0 are in no pair

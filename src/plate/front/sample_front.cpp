@@ -149,8 +149,9 @@ class Sampler {
     }
   }
 
-  // Divides each edge of the smooth triangles in the band near creases into the same number of parts, so
-  // that the median part is about as long as the resolution. New points on creases stay on the creases.
+  // Divides each edge of the smooth triangles in the band near creases. All edges get the same number of
+  // parts, so that the median part is about as long as the resolution. New points on creases stay on the
+  // creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -219,7 +220,7 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a sample near the middle of each square outside the band, which lies near creases and the hull.
+  // The band lies near creases and the hull. Outside the band, adds a sample near the middle of each square.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));

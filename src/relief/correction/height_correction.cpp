@@ -264,8 +264,8 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
   // Equation (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The
-  // few points that stay below the base are raised to it, because otherwise the scaling below would lower
-  // all other heights to make room for them.
+  // few points that stay below the base are raised to it. Otherwise the scaling below would lower all other
+  // heights to make room for them.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));
