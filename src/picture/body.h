@@ -32,8 +32,8 @@ struct PlateParts {
   bool has_curved_ground = false;                    // whether the ground lies on a curved base or is bent
 };
 
-// Returns the parts of a solid. Corner normals are smoothed across edges between triangles of the same part
-// that meet at less than 20 degrees.
+// Returns the parts of a solid. Corner normals are smoothed across an edge if its two triangles belong to the
+// same part and meet at less than 20 degrees.
 PlateParts plate_parts(const Solid& solid);
 
 // A body to draw. x and y are measured from the middle of its box, and z is measured from the ground.

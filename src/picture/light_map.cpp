@@ -10,7 +10,8 @@ namespace relievo {
 namespace {
 
 // Hollows are darkened at two scales. The radius of a scale is the front's longer side divided by one of
-// these numbers. The small radius suits folds and letters, the large one a figure in front of its ground.
+// these numbers. The small radius suits folds and letters. The large radius suits a figure in front of its
+// ground.
 constexpr int hollow_divisors[] = {120, 30};
 
 // The share of the sky's light in the deepest hollow. Black hollows would look like holes.

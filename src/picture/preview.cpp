@@ -69,8 +69,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// Returns the transforms for two pictures of the same size, whose longer side is `longer_side_px`. The
-// first picture is the front view of `front_body`, the second the oblique view of `oblique_body`.
+// Returns the transforms for two pictures of the same size; its longer side is `longer_side_px`. The first
+// picture is the front view of `front_body`. The second one is the oblique view of `oblique_body`.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();

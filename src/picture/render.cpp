@@ -68,8 +68,8 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Draws the dots in two passes (surface splatting). The first finds the front-most depth of each pixel, the
-// second the mean normal of the dots near this depth.
+// Draws the dots in two passes (surface splatting). The first pass finds the front-most depth of each pixel.
+// The second pass computes the mean normal of the dots near this depth.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

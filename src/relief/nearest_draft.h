@@ -39,7 +39,7 @@ class TriangleSlopes {
   };
   struct Share {
     Index triangle = 0;
-    Vec2f weight = Vec2f::Zero();  // area times gradient
+    Vec2f weight = Vec2f::Zero();  // area times gradient of the hat function
   };
 
   std::vector<Corners> triangles_;

@@ -27,9 +27,9 @@ struct Graph {
 enum class Side : std::uint8_t { first, second, separator };
 
 // The part of a graph in which a separator is sought. Vertices marked in `touches_first` have neighbours on
-// the first side of the band, vertices marked in `touches_second` on the second side. The search takes linear
-// time if the positions draw the graph without crossings and each vertex lists its neighbours
-// counter-clockwise. Otherwise the search takes longer, but its result is the same.
+// the first side of the band. Vertices marked in `touches_second` have neighbours on the second side. The
+// search takes linear time if the positions draw the graph without crossings and each vertex lists its
+// neighbours counter-clockwise. Otherwise the search takes longer, but its result is the same.
 struct SeparatorBand {
   Graph graph;
   std::vector<Eigen::Vector2f> positions;

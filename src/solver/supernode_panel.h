@@ -6,8 +6,8 @@
 // A panel consists of strips of eight columns. Each strip begins at its own first row, because the columns of
 // a supernode form a lower triangle. Zeros are added below the last row until the number of rows is a
 // multiple of four. Within a strip, rows are stored in blocks of eight, and blocks by columns; if four rows
-// remain, the last block has four. Forward substitution reads the values from front to back, backward
-// substitution from back to front.
+// remain, the last block has four. Forward substitution reads the values from the first to the last,
+// and backward substitution reads them from the last to the first.
 #pragma once
 
 #include <cstddef>
@@ -53,7 +53,8 @@ struct NodeSize {
   Index width = 0, below = 0;
 };
 
-// The largest number of rows of a supernode inside a subtree, because the products keep a copy on the stack.
+// The largest number of rows of a supernode inside a subtree. It is limited because the products keep a copy
+// of the rows' elements of the work vector on the stack.
 inline constexpr Index largest_subtree_rows = 2048;
 
 // Consecutive supernodes in postorder. Their columns are consecutive elements of `work`, the task's work
