@@ -71,8 +71,8 @@ void lay_over(std::uint8_t* rgba, float shade) {
   rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
 }
 
-// Draws the shadow of the opaque pixels of a picture with 4 channels onto its other pixels, as black with
-// some opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
+// The opaque pixels of a picture with 4 channels cast a shadow. Draws this shadow onto the other pixels, as
+// black with some opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
 void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   const DropShadow shadow(picture, to_lamp);
   const auto add_to_row = [&](std::size_t row) {

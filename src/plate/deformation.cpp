@@ -121,9 +121,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside the triangle whose deviation exceeds the tolerance. Samples lie on lines
-  // parallel to the longest edge. They are needed only if all three edges are within the tolerance, for
-  // example on top of a hill.
+  // Samples the deviation inside the triangle. Returns the position of the first sample that exceeds the
+  // tolerance. Samples lie on lines parallel to the longest edge. They are needed only if all three edges are
+  // within the tolerance, for example on top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();

@@ -26,9 +26,9 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex polygon that approximates the curve of an outline and grows with its size. `line` is
-// the line of the side. `tangent` is the parallel tangent of the curve. They coincide where the curve is
-// straight.
+// One side of a convex polygon that approximates the curve of an outline. Both grow with the size of the
+// outline. `line` is the line of the side. `tangent` is the parallel tangent of the curve. The two coincide
+// where the curve is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;

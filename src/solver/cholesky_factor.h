@@ -63,7 +63,7 @@ struct Cholesky::Factor {
   std::vector<Index> to_parent;  // per boundary column: its row in the parent's work vector
   std::vector<NodeSize> nodes;
   std::vector<std::uint16_t> rows;  // see Subtree::rows
-  LargeArray values;                // the panels of W, task by task
+  LargeArray values;                // the panels, task by task
   std::size_t value_count = 0, work_count = 0;
   TaskMatrix matrix;
 };

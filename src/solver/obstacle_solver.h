@@ -126,9 +126,9 @@ class ObstacleSolver {
     };
     struct TiedNode {
       Index node;
-      // The parts in the ties of the four cells around the node. If a cell has no tie, the weight is 0, and `tie` is
-      // the index of an unused value in at_ties that belongs to this node alone. If nodes shared that value, each
-      // update would have to wait for the write of the previous one.
+      // The node's parts in the ties of the four cells around it. If a cell has no tie, the weight is 0, and
+      // `tie` is the index of an unused value in at_ties that belongs to this node alone. If nodes shared
+      // that value, each update would have to wait for the write of the previous one.
       std::array<Share, 4> shares;
     };
     struct Colour {

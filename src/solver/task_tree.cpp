@@ -9,9 +9,9 @@
 namespace relievo::solver {
 namespace {
 
-// Returns the largest number of columns of a task that is a subtree. It is small enough for at least about 64
-// tasks, and large enough that few rows belong to two tasks. It is at most 16,384, so that positions in a
-// work vector fit into 16 bits.
+// Returns the largest number of columns of a task that is a subtree. It is so small that there are at least
+// about 64 tasks, and so large that few rows belong to two tasks. It is at most 16,384, so that positions in
+// a work vector fit into 16 bits.
 Index subtree_limit(std::size_t columns) {
   return static_cast<Index>(std::clamp<std::size_t>(columns / 64, 1024, 16384));
 }
