@@ -27,9 +27,9 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes a sum over the triangles of each point i. The term of a triangle is its area times (field .
-  // gradient of i's hat function). Boundary points get 0. If the field consists of slopes, the sums are the
-  // right-hand side of equation (9).
+  // For each point i, writes a sum over the triangles around it. The term of a triangle is its area times
+  // (field . gradient of i's hat function). Boundary points get 0. If the field consists of slopes, the sums
+  // are the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
