@@ -14,7 +14,7 @@ namespace {
 // At edges of a plate, normals differ by more than this angle; between the facets of round parts they differ by less.
 constexpr double sharpest_deg = 20;
 
-// Tolerance for the heights of points on the ground, which differ slightly because solids are
+// Tolerance for the heights of points on the ground. These heights differ slightly, because solids are
 // rounded to single precision.
 constexpr double rounding_mm = 1e-6;
 
@@ -74,8 +74,8 @@ PlateParts plate_parts(const Solid& solid) {
   return out;
 }
 
-// Level triangles are ignored. The level triangles of the ground are large and thin, and would spread the
-// shading of the relief's rim across the ground.
+// Only triangles of the region `relief` count. The triangles of the ground are large and thin, and would
+// spread the shading of the relief's rim across the ground.
 std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {

@@ -32,12 +32,13 @@ struct PlateParts {
   bool has_curved_ground = false;                    // whether the ground lies on a curved base or is bent
 };
 
-// Returns the parts of a solid. Corner normals are smoothed across edges between triangles of the same part
-// that meet at less than 20 degrees.
+// Returns the parts of a solid. Corner normals are smoothed across an edge if its two triangles belong to the
+// same part and meet at less than 20 degrees.
 PlateParts plate_parts(const Solid& solid);
 
-// A body to draw. Its x and y are relative to the middle of its box, its z to the ground. Triangles refer to
-// points by index: first the points with heights, then `box_corners`. A DrawnBody does not own its arrays.
+// A body to draw. x and y are measured from the middle of its box, and z is measured from the ground.
+// Triangles refer to points by index: first the points with heights, then `box_corners`. A DrawnBody does not
+// own its arrays.
 struct DrawnBody {
   std::span<const Triangle> triangles;
   const PlateParts& parts;
@@ -72,7 +73,7 @@ class SolidBody {
  public:
   explicit SolidBody(const Solid& solid);
 
-  // Returns the body, which is valid as long as this object and the solid.
+  // Returns the body, which is valid as long as this object and the solid exist.
   DrawnBody body() const;
 
  private:
@@ -83,7 +84,8 @@ class SolidBody {
   std::vector<Vec3f> normals_;
 };
 
-// Returns unit normals of the relief's points, as means weighted by area; zero for all other points.
+// Returns a unit normal for each point of the relief: the mean normal of its triangles, weighted by their
+// areas. All other points get zero.
 std::vector<Vec3f> relief_normals(const Solid& solid);
 
 }  // namespace relievo

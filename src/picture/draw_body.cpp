@@ -13,14 +13,14 @@
 namespace relievo {
 namespace {
 
-// Soft shadows need few pixels: the longer side of their coarse grid has at most this many cells.
+// A soft shadow needs few pixels, so the longer side of its coarse grid has at most this many cells.
 constexpr int most_cells = 160;
 
 // Opacity of the full shadow, similar to the shadow on a table in a bright room with a lamp.
 constexpr float shadow_opacity = .4F;
 
-// The radius of the shadow's soft edge, and the distance by which a shadow is offset from its body at
-// most, both in cells. The values suit the thickness of a plate.
+// The radius of the shadow's soft edge, and the largest offset of a shadow from its body, both in cells. The
+// values suit the thickness of a plate.
 constexpr int softness = 2;
 constexpr float farthest = 2;
 
@@ -71,8 +71,8 @@ void lay_over(std::uint8_t* rgba, float shade) {
   rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
 }
 
-// Draws the shadow of the opaque pixels of a picture with 4 channels onto its other pixels, as black with
-// some opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
+// The opaque pixels of a picture with 4 channels cast a shadow. Draws this shadow onto the other pixels, as
+// black with some opacity. `to_lamp` is the direction to the lamp in the picture: y upwards, unit length.
 void add_drop_shadow(Image8& picture, const Vec3f& to_lamp) {
   const DropShadow shadow(picture, to_lamp);
   const auto add_to_row = [&](std::size_t row) {
@@ -99,8 +99,9 @@ int light_map_px(const ScreenTransform& transform, bool is_fine) {
                  : std::clamp(side / 3, least_light_px, most_quick_light_px);
 }
 
-// Walls and bottom get uniform light. It has slightly less lamp light than the front, so that the front's
-// edge is visible. Their normals are turned towards the viewer, because dark walls would look like holes.
+// Walls and bottom get uniform light. Its share of the lamp's light is slightly less than on the front, so
+// that the front's edge is visible. The normals of walls and bottom are turned towards the viewer, because
+// dark walls would look like holes.
 constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls transmit light like a plate of about mean thickness

@@ -48,8 +48,9 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
 // Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Caches a visibility buffer as long as the buffer shows the same points. In the view from above it does so
-// while only heights change, not the plate's size.
+// Caches a visibility buffer as long as the buffer shows the same points. That is so if the body is a height
+// field that is seen from above, and neither the plate's size nor the transform has changed. Heights may
+// change.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);

@@ -10,15 +10,16 @@ namespace relievo {
 namespace {
 
 // Hollows are darkened at two scales. The radius of a scale is the front's longer side divided by one of
-// these numbers. The small radius suits folds and letters, the large one a figure in front of its ground.
+// these numbers. The small radius suits folds and letters. The large radius suits a figure in front of its
+// ground.
 constexpr int hollow_divisors[] = {120, 30};
 
 // The share of the sky's light in the deepest hollow. Black hollows would look like holes.
 constexpr float darkest_hollow = .2F;
 
-// A hollow loses sky light with its depth below the mean height of its surroundings. At this depth, in units
-// of the radius, 1/e of the removable sky light is left. The depth corresponds to about 24 degrees, the slope
-// of a distinct fold.
+// A hollow gets less sky light the deeper it is below the mean height of its surroundings. At this depth, in
+// units of the radius of the surroundings, 1/e of the removable sky light is left. The depth corresponds to a
+// slope of about 24 degrees, the slope of a distinct fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
 // The width of the lamp divided by its distance: a soft box one metre wide, one and a half metres away.

@@ -124,7 +124,9 @@ void LivePlate::find_added_points(const Solid& solid) {
     AddedPoint added{i, {}, {}};
     std::array<double, 3> distances_sq;
     tree->nearest(places_[i], 3, added.from.data(), distances_sq.data());
-    for (std::size_t k = 0; k < 3; ++k)  // mostly the two nearest points, which it lies between
+    // An added point lies between its two nearest points. Weights that fall with the fourth power of the
+    // distance give these two nearly all of the weight.
+    for (std::size_t k = 0; k < 3; ++k)
       added.share[k] = static_cast<float>(1 / (distances_sq[k] * distances_sq[k] + 1e-12));
     const float sum = added.share[0] + added.share[1] + added.share[2];
     for (float& share : added.share) share /= sum;

@@ -55,13 +55,13 @@ class LivePlate {
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::vector<Index> relief_;      // the surface's points that the plate shows; they are its first points
+  std::vector<Index> relief_;      // the plate's first points: those of the surface that it shows
   std::vector<AddedPoint> added_;  // points of the relief that are not points of the surface
   std::vector<Vec2> places_;       // positions of the front's points, from the middle of the body, in mm
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane
   std::vector<Vec2f> slopes_;      // slopes of the base under the points of the front; empty for a plane
-  std::vector<float> rise_;  // heights of the points after relief_ above the base, if the rim's height is 1
-  std::vector<Vec2> below_;  // points of the bottom
+  std::vector<float> rise_;        // for the points after relief_: height above the base at a rim of height 1
+  std::vector<Vec2> below_;        // points of the bottom
   // The points of front and bottom after the plate is bent around the body of the option wrap; empty for a flat plate.
   std::optional<BentPoints> bent_;
   Vec2 half_ = Vec2::Zero(), relief_middle_ = Vec2::Zero();

@@ -17,7 +17,8 @@ namespace {
 
 constexpr double preview_padding =
     .06;  // space for the shadow around the plate, as a share of the picture's longer side
-// The largest longer side of each of the two pictures, which have 3 samples per pixel in each direction.
+// Each of the two pictures of a preview has 3 samples per pixel in each direction. Its longer side has at
+// most this many pixels.
 constexpr int most_pixels = RasterInput::most_pixels / 3 / 2;
 
 // Linear brightness of the background, at the top and at the bottom. It contrasts with the plate, and is
@@ -68,8 +69,8 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// Returns the transforms for two pictures of the same size, whose longer side is `longer_side_px`. The
-// first picture is the front view of `front_body`, the second the oblique view of `oblique_body`.
+// Returns the transforms for two pictures of the same size; its longer side is `longer_side_px`. The first
+// picture is the front view of `front_body`. The second one is the oblique view of `oblique_body`.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
   const Mat3 rotation = oblique_rotation();

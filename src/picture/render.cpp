@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// The longer side, in pixels, of the height field from which profiles are taken. Pictures of
-// profiles have fewer pixels.
+// The longer side, in pixels, of the height field from which profiles are taken. Pictures of profiles have
+// fewer pixels than this.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {
@@ -27,8 +27,8 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// The direction to the lamp. It is closer to the viewer's direction than the lamp for reliefs, because
-// large parts of a whole body face away from the light.
+// The direction to the lamp for scans. Large parts of a whole body would face away from the lamp for reliefs,
+// so this lamp is closer to the viewer's direction.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc, in sampling distances. With this radius, randomly scattered points leave few
@@ -68,8 +68,8 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     }
 }
 
-// Draws the dots in two passes (surface splatting). The first finds the front-most depth of each pixel, the
-// second the mean normal of the dots near this depth.
+// Draws the dots in two passes (surface splatting). The first pass finds the front-most depth of each pixel.
+// The second pass computes the mean normal of the dots near this depth.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {

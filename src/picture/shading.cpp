@@ -9,17 +9,18 @@ namespace {
 // value is clipped. With less sky light, shadows would lose their detail; with more, the relief would look flat.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
 
-// The direction of the brightest sky: above, and slightly away from the lamp, so that slopes facing away from
-// the lamp get some shading, too.
+// The direction of the brightest sky. It is above, and slightly away from the lamp, so that slopes that face
+// away from the lamp get some shading, too.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine between lamp and the plate's
-// normal is `usual_lamp_z`. At this cosine, the lamp is as far to the left and as far above as in front.
+// For a raking lamp the exposure is raised, as in photography. It is 1 if the cosine of the angle between the
+// lamp's direction and the plate's normal is `usual_lamp_z`. A lamp with this cosine is equally far to the
+// left of the plate, above it and in front of it.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 
-// The exponent is between 1 (linear) and 2.2 (sRGB). Most of a relief has middle tones, which an exponent of
-// 2.2 would make flat and pale.
+// The exponent for the conversion to display values is between 1 (linear) and 2.2 (sRGB). Most of a relief
+// has middle tones, which an exponent of 2.2 would make flat and pale.
 constexpr float display_gamma = 1.45F;
 
 // Brightness above this value is compressed gradually, because clipping would be visible.
@@ -86,9 +87,9 @@ float smooth_noise(float x, float y, int period = 0) {
   return low + t * (high - low);
 }
 
-// Tabulates patches of patina, in [-0.75, 0.75]. They are noise with scales of 3 mm and half a millimetre,
-// which repeats after 64 mm. The grids of the noise are rotated, because the eye notices horizontal and
-// vertical grids. The table is used because computing the noise would take half of a picture's time.
+// Tabulates patches of patina, in [-0.75, 0.75]. They are noise with scales of 3 mm and half a millimetre.
+// The noise repeats after 64 mm. Its grids are rotated, because the eye notices horizontal and vertical
+// grids. The table is used because computing the noise would take half of a picture's time.
 class Patches {
  public:
   Patches() : values_(static_cast<std::size_t>(side) * side) {

@@ -129,7 +129,7 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // perpendicular to the straight lines; a dome: the plate's radius
+  double half_extent = 0;  // half the plate's size perpendicular to the straight lines; a dome: its radius
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =

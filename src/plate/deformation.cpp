@@ -13,7 +13,9 @@
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm = 4e-3;  // several units in the last place at 10 m, and finer than any tool
+// Edges up to this length are not split. It is finer than any tool, and in single precision it is several
+// units in the last place of coordinates of 10 m.
+constexpr double shortest_mm = 4e-3;
 constexpr int most_refinements = 60;  // each refinement halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
 
@@ -42,8 +44,8 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
 }
 
 // Refines in rounds. Each round samples the new triangles, adds all points that they need, and splits the
-// triangles. Triangles are examined separately, but both triangles of an edge sample the edge at the same
-// points, so they split it at the same point. That avoids T-junctions.
+// triangles. Triangles are examined separately. But both triangles of an edge sample it at the same points,
+// so they split it at the same point. That avoids T-junctions.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
@@ -100,7 +102,7 @@ class Refiner {
   // Returns where to split an edge, as a share of its length; 0 if the edge is within the tolerance. The
   // result is the same for both triangles of the edge. If the edge crosses a crease, only the crossing is
   // measured, because the deviation is largest there, and splits at midpoints would approach the crease
-  // slowly. Other edges are sampled twice per feature, so that a wave that is 0 at the midpoint is noticed.
+  // slowly. Other edges have two samples per feature, so that a wave that is 0 at the midpoint is noticed.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];
@@ -119,9 +121,9 @@ class Refiner {
     return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // Returns the first sample inside the triangle whose deviation exceeds the tolerance. Samples lie on lines
-  // parallel to the longest edge. They are needed only if all three edges are within the tolerance, for
-  // example on top of a hill.
+  // Samples the deviation inside the triangle. Returns the position of the first sample that exceeds the
+  // tolerance. Samples lie on lines parallel to the longest edge. They are needed only if all three edges are
+  // within the tolerance, for example on top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();

@@ -20,8 +20,8 @@ struct Deformation {
   // Returns the position, in (0, 1), where the segment between two points crosses a crease; nothing if it
   // crosses none. If the function is null, there are no creases.
   std::function<std::optional<double>(const Vec3&, const Vec3&)> crease_between = nullptr;
-  // A length in mm below which the deformed surface curves in one direction only, approximately. It
-  // determines the distance between the samples of the deviation.
+  // Along a line shorter than this length in mm, the deformed surface is approximately either convex or
+  // concave, not both. The length determines the distance between the samples of the deviation.
   double min_feature_mm = std::numeric_limits<double>::infinity();
 };
 

@@ -29,8 +29,8 @@ struct StoredFront {
 
   PlaneMesh field() const { return {plane, triangles, is_fixed}; }
 
-  // Frees all front points except the lowest and the highest ones, points of the outline (top of the
-  // walls) and points at the outline's height (flat ground).
+  // Lets the heights of most front points change. These points keep their heights: the lowest and the highest
+  // ones, those of the outline (top of the walls), and those at the outline's height (flat ground).
   void free_inner_points(const Solid& solid) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const Triangle& t : triangles)

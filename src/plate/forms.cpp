@@ -17,9 +17,10 @@
 namespace relievo {
 namespace {
 
-// The shares of points at which brightness is clipped. The plate is thinnest for the brightest 2 % of the points;
-// otherwise a few highlights would leave everything else dark. It is thickest for the darkest tenth of the points. If
-// the points below a tenth of the highlights' brightness are fewer, it is thickest for these instead.
+// The plate is thinnest where the brightness is at least its quantile `bright_share`; otherwise a few
+// highlights would leave everything else dark. The plate is thickest where the brightness is at most its
+// quantile `dark_share`. This second brightness is kept between `least_dark_of_bright` and `dark_of_bright`
+// times the first one.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 

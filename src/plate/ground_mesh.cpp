@@ -15,10 +15,11 @@
 namespace relievo {
 namespace {
 
-constexpr double most_points = 2e5;  // most points of the ground; a relief has about as many
+constexpr double most_points = 2e5;  // largest number of points of the ground; a relief has about as many
 
-// Returns whether three edges of length `step` from the point `from` deviate by no more than refine() allows.
-// Edges across a crease are ignored, because refine() splits them at the crease.
+// Returns whether three edges of length `step` from the point `from` are fine enough: none deviates from the
+// deformed surface by more than refine() allows. Edges across a crease are ignored, because refine() splits
+// them at the crease.
 bool is_fine(const Deformation& deformation, const Vec3& from, double step, double tolerance_mm) {
   for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
     const Vec3 to = from + way;

@@ -32,7 +32,8 @@ struct Chord {
   Vec2 left, right;  // x and z
 };
 
-// Returns the segment of the line at `y` inside a triangle; the line must intersect the triangle.
+// Returns the part of the line of constant `y` that is inside a triangle. The line must intersect the
+// triangle.
 Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
   Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
   chord.right.x() = -chord.left.x();
@@ -55,8 +56,8 @@ class FieldRows {
  public:
   FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
 
-  // Draws a triangle: raises each pixel whose centre is in the triangle or on its edge to the
-  // triangle's height at the centre.
+  // Draws a triangle. If the centre of a pixel is in the triangle or on its edge, the pixel gets at least the
+  // triangle's height at this centre.
   void enter(const std::array<Vec3, 3>& corners) {
     const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
     const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),

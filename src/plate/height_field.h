@@ -20,7 +20,7 @@ struct FieldSampling {
 };
 
 // The heights of a solid's front at the pixels of an image. The box is centred in the image. Its longer side
-// fills the image, but if the size of a pixel is given, a fraction of a pixel can remain on either side.
+// fills the image. But if the size of a pixel is given, a fraction of a pixel can remain on either side.
 struct HeightField {
   double mm_per_pixel = 0;
   Box box;                             // box of the part that is shown
@@ -40,15 +40,15 @@ struct HeightField {
 // if the number of pixels along a side is not in [1, RasterInput::most_pixels].
 HeightField flat_height_field(const Box& box, const FieldSampling& sampling);
 
-// Returns the heights of a solid's front by fast rasterisation. In the cases that flat_height_field() names,
-// the field has no pixels.
+// Returns the heights of a solid's front by fast rasterisation. The field has no pixels if
+// flat_height_field() returns none.
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the exact heights of a solid's front, with corners rounded as in files. A pixel has the height of
-// the highest triangle that contains its centre, edges included. (draw_height_field() is less exact. It
-// rounds corners to 1/256 pixel, which at a wall can change a height by the height of the wall.) If the
-// relief is shown alone, the field has the height of the ground around it. In the cases that
-// flat_height_field() names, the field has no pixels. `is_beside` is empty.
+// Returns the heights of a solid's front as it is in files, whose coordinates are rounded to single
+// precision. A pixel has the height of the highest triangle that contains its centre, edges included.
+// (draw_height_field() is less exact. It rounds corners to 1/256 pixel, which at a wall can change a height
+// by the height of the wall.) If the relief is shown alone, the field has the height of the ground around it.
+// The field has no pixels if flat_height_field() returns none. `is_beside` is empty.
 HeightField measure_height_field(const Solid& solid, const FieldSampling& sampling);
 
 // Returns the number of samples along the longer side. The distance between samples is a twelfth of the

@@ -26,8 +26,9 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex outline that grows with its size. `line` is the line of the side, `tangent` the
-// parallel tangent of the curve. They coincide where the outline is straight.
+// One side of a convex polygon that approximates the curve of an outline. Both grow with the size of the
+// outline. `line` is the line of the side. `tangent` is the parallel tangent of the curve. The two coincide
+// where the curve is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
@@ -65,9 +66,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Returns the centre of the smallest circle around the points among the circles that are centred midway
-// between left and right. The smallest of all circles could be visibly off this middle. The circles are
-// measured in coordinates divided by `scale`, so that they can stand for ellipses.
+// Considers circles around the points. Their centres are midway between the leftmost and the rightmost point;
+// other centres could be visibly off this middle. Returns the centre of the smallest such circle. The circles
+// are measured in coordinates divided by `scale`, so that they can stand for ellipses.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -158,7 +159,7 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
 }
 
 // Returns the bounding box of the points. If the options have a size, returns a box with the same centre
-// instead; it has this size less the margin on all sides.
+// instead. Its size is that of the options minus the margin on all sides.
 Frame inner_frame(Points points, const OutlineOptions& options) {
   Frame frame = frame_around(points);
   if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);

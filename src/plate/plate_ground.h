@@ -56,7 +56,7 @@ struct PlateOutline {
 
 PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, const PlateOptions& options);
 
-// An edge of the rim, which may be the outline of the plate.
+// An edge of the rim. The outermost one is the outline of the plate.
 struct RimEdge {
   std::vector<Vec2> polygon;
   double height_mm = 0;  // above the ground

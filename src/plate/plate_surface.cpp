@@ -35,8 +35,8 @@ Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& cor
   return solid;
 }
 
-// Sets the region of each triangle: bevel outside the rim's inner polygon, ground where all corners are at
-// the height of the ground, relief elsewhere.
+// Sets the region of each triangle. Outside the rim's inner polygon it is the bevel. Inside, it is the ground
+// if all corners are at the height of the ground, and the relief otherwise.
 void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
   surface.regions.resize(surface.triangles.size());
   parallel_for(surface.triangles.size(), [&](std::size_t i) {

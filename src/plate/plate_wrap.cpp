@@ -16,7 +16,8 @@
 namespace relievo {
 namespace {
 
-// The share of the smallest radius of the wrap that the bent plate must leave free, so that no point reaches the axis.
+// Between the bent plate and the axis, at least this share of the wrap's smallest radius must stay free, so
+// that no point reaches the axis.
 constexpr double least_free = .01;
 
 // Returns the points of the plate's back. The back is flat before bending and has the extent of the plate.
@@ -28,7 +29,7 @@ std::vector<Vec2> back_of(const Solid& plate) {
   return places;
 }
 
-// A point on one of the two sides that will be joined.
+// A point on one of the plate's two sides that will be joined.
 struct SidePoint {
   double along, z;
   Index point;

@@ -15,11 +15,11 @@
 namespace relievo {
 namespace {
 
-// Distances between new points, in samples, where the surface is gentle and where it is steep. With
-// samples_for() they are usually a quarter and a twelfth of the tool's radius.
+// Distances between new points, counted in samples, where the surface is gentle and where it is steep. With
+// the samples of samples_for(), these are usually a quarter and a twelfth of the tool's radius.
 constexpr int gentle_stride = 3, steep_stride = 1;
 constexpr float steep_slope = .5F;
-constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this is left above it
+constexpr double least_left_mm = 1e-3;  // a point counts as reached if at most this much is left above it
 // Largest distance by which a point is lifted. A point that would have to be lifted more is removed.
 constexpr double most_lift_mm = .01;
 
@@ -141,8 +141,8 @@ Colour colour_of(const Solid& solid, Index i) {
   return solid.colours.empty() ? Colour{} : solid.colours[i];
 }
 
-// Returns the distance between points along the rim's edges. It is less than the width of the bevel, so no
-// triangle crosses the bevel.
+// Returns the distance between points along the rim's edges. It is a third of the least distance between two
+// edges, so that no triangle crosses the bevel. But it is at least the width of two samples.
 double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
   double narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < edges.size(); ++i)
@@ -150,7 +150,7 @@ double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) 
   return std::max(narrowest / 3, 2 * heights.mm_per_sample());
 }
 
-// Returns the points of the surface that the tool leaves.
+// Returns the points of the new surface, which is the one that the tool leaves.
 PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
                         std::span<const RimEdge> edges) {
   const Solid& solid = surface.solid;

@@ -145,7 +145,8 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
   const int reach =
       std::min(static_cast<int>(radius / step_mm + 1e-9), std::max(heights.width, heights.height) / 2);
   const Profile profile(reach, [&](int x, int y) {
-    // The factor keeps samples at the radius, which rounding could put beyond it.
+    // Rounding could make the distance of a sample at the radius slightly larger than the radius. The factor
+    // prevents that.
     const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));

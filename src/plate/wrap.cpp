@@ -12,10 +12,11 @@
 namespace relievo {
 namespace {
 
-constexpr double most_of_sphere_deg = 340;  // with more, the rim would meet itself behind the sphere
+constexpr double most_of_sphere_deg = 340;  // at a larger angle, the rim would meet itself behind the sphere
 constexpr double closing_deg = .01;         // an angle this close to a full turn counts as a full turn
 
-// The size of the plate across and along the axis, and its largest distance from its middle.
+// The size of the plate across and along the wrap's axis, and the distance of its farthest point from its
+// middle.
 struct Extent {
   double across = 0, along = 0, radius = 0;
 };

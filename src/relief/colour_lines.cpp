@@ -15,12 +15,14 @@ namespace {
 // Standard deviations of two Gaussians, as shares of the longer side. The narrow Gaussian removes colour
 // noise; its standard deviation is at least `least_narrow_rho` sampling distances.
 constexpr double narrow = .0025, wide = .025, least_narrow_rho = 1.5;
-// Differences of lightness between a line and its surroundings, as shares of the range of lightness. Lines
-// do not sink below a difference of `least_darker`, and sink by the full depth above `most_darker`.
+// Differences of lightness between a line and its surroundings, as shares of the range of lightness. If the
+// difference is at most `least_darker`, the line does not sink. If it is at least `most_darker`, the line
+// sinks by the full depth.
 constexpr float least_darker = .04F, most_darker = .12F;
 
-// Writes factor * z minus the depth of the lines to `to`, but at least min(z, 0), where 0 is the base.
-// Returns the highest result and the index of its point.
+// Multiplies the heights z by `factor`, subtracts the depth of the lines, and writes the results to `to`. No
+// result is less than the smaller one of z and 0, where 0 is the base. Returns the highest result and the
+// index of its point.
 template <typename Real>
 std::pair<double, std::size_t> lowered(std::span<const float> lines, double depth, double factor,
                                        std::span<const Real> z, std::span<Real> to) {

@@ -21,7 +21,7 @@ std::vector<float> dark_lines(const Surface& surface);
 template <typename Real>
 void sink_lines(std::span<const float> lines, double depth, std::span<Real> z);
 
-// Lowers the relief's heights as above, by the line depth of the relief's shape.
+// Does the same with the heights of `relief`. The depth of the lines is the line depth of its shape.
 void sink_lines(const Surface& surface, Relief& relief);
 
 }  // namespace relievo

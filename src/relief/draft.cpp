@@ -35,7 +35,7 @@ class Limiter {
     std::ranges::copy(triangles_inside(model.surface()), std::back_inserter(triangles_));
   }
 
-  // Returns whether the slopes of relief and base together stay below kept_slope of the limit.
+  // Returns whether the slopes of relief and base together stay below a share of the limit, kept_slope.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_slope * options_.max_slope;
   }
@@ -108,8 +108,9 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches for the relief of a given height under the slope limit. The search varies x, with which the height grows. x
-// is the logarithm of u if the method has a shape, else (for baselines) the logarithm of a scale factor.
+// Searches for the relief of a given height under the slope limit. The search varies x, with which the height
+// grows. If the method has a shape, x is the logarithm of u. For baselines, x is the logarithm of a scale
+// factor.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
@@ -126,12 +127,14 @@ class DraftSearch {
   }
 
  private:
-  // Beyond u = e^4.5 the weights of equation (6) are nearly 1 in all layers, unless gamma is large.
+  // The search ends at u = e^4.5. Beyond this, the weights of equation (6) are nearly 1 in all layers, unless
+  // gamma is large.
   static constexpr double largest_log_u = 4.5;
 
-  // A baseline's relief grows with the scale until it consists of walls only. At the largest scale the relief is 64
-  // times as high as a cone of the largest slope whose radius is half the longer side, before its slopes are limited.
-  // This does not depend on the requested height, so the largest height is the same for all requests.
+  // A baseline's relief grows with the scale until it consists of walls only. Imagine a cone of the largest
+  // slope, with a radius of half the longer side. At the largest scale, and before its slopes are limited,
+  // the relief is 64 times as high as this cone. This does not depend on the requested height, so the largest
+  // height is the same for all requests.
   double largest_log_scale() const {
     const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);

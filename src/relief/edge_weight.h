@@ -26,8 +26,9 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
   return .5 * std::clamp(u.dot(v) / std::max(cross(u, v), 1e-300), -1e6, 1e6);
 }
 
-// Returns the factor, in [0, 1], for all half weights of a triangle, of which `stiffest` is the largest. It reduces the
-// largest to at most half of largest_edge_weight, because the weight of an edge is the sum of two half weights.
+// Returns the factor, in [0, 1], for all half weights of a triangle. `stiffest` is the largest of these
+// weights. The factor reduces it to at most half of largest_edge_weight, because the weight of an edge is the
+// sum of two half weights.
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));

@@ -54,7 +54,7 @@ struct OwnFrames {
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
   Shape made = {};                              // shape of the last frame
-  HeightSearch::Track last_height, last_steps;  // results of the last searches: u, and steps
+  HeightSearch::Track last_height, last_steps;  // results of the last searches for u and for steps
   bool needs_steps = false;                     // whether slopes alone missed the last height
 
   explicit OwnFrames(const ReliefModel& m) : model(m) {}

@@ -100,10 +100,11 @@ class HeightSearch {
   template <typename F>
   bool climb(double low, double last, F&& height_at) const {
     constexpr int most_reliefs = 24;
-    // Steps are a tenth longer than secant steps, so that they end slightly above the requested height. That
-    // closes the bracket, which saves a relief.
+    // Steps are a tenth longer than secant steps, so that they end slightly above the requested height. Such
+    // a step closes the bracket and saves a relief.
     constexpr SecantStep step{1.1, .01, 1.5};
-    // Heights grow with u, but more slowly where the slopes of the steepest walls are limited.
+    // Limits of the elasticity. Heights grow with u, but more slowly where the slopes of the steepest walls
+    // are limited.
     constexpr double least_elasticity = .05, most_elasticity = 2;
     // If the next step would end less than `near_last` before `last`, or beyond it, the relief at `last`
     // is made instead. If the relief at `last` is too low, the search fails.

@@ -56,8 +56,8 @@ struct HeightEquations {
   Eigen::SparseMatrix<double> A;   // lower triangle of the weighted Laplacian; one row per unknown
   // The edges of each point, in ascending order of the points at their other ends. Every point also has an
   // edge to itself, so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half
-  // its weight times the vector from the other point; it is 0 at boundary points, whose heights are 0.
-  // SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
+  // its weight times the vector to the point from the other end. It is 0 at boundary points, whose heights
+  // are 0. SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
   Groups<MatrixEntry> edges;
 };
 
@@ -155,8 +155,9 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-// Returns the coefficients of the right-hand side of equation (9). The right-hand side of point p is the sum
-// over its edges of weight / 2 (s_p + s_q) . (p - q).
+// Returns the coefficients of the right-hand side of equation (9). The right-hand side of point p is a sum
+// over its edges. The edge to point q contributes weight / 2 (s_p + s_q) . (p - q), where s are the slopes at
+// both points.
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {

@@ -39,8 +39,8 @@ RELIEVO_INLINE void write_eights(const SlopeParams& params, std::size_t first, s
   for (std::size_t i = first; i + points_at_once <= end; i += points_at_once) write_eight(params, i, slopes);
 }
 
-// Standard deviations of the Gaussians that separate the layers, as shares of the longer side.
-// docs/method.md has the formula, docs/decisions/layers.md the reason.
+// Standard deviations of the Gaussians that separate the layers, as shares of the longer side. docs/method.md
+// has the formula, and docs/decisions/layers.md has the reason.
 constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
 // The slope at which faded_xy() halves the x and y of a normal. A slope of 12 corresponds to 85 degrees.
 constexpr double half_kept_slope = 12;

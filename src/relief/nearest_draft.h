@@ -27,8 +27,9 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // Writes, for each point i, the sum over its triangles of area times (field . gradient of i's hat function). Boundary
-  // points get 0. If the field consists of slopes, the sums are the right-hand side of equation (9).
+  // For each point i, writes a sum over the triangles around it. The term of a triangle is its area times
+  // (field . gradient of i's hat function). Boundary points get 0. If the field consists of slopes, the sums
+  // are the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:
@@ -39,7 +40,7 @@ class TriangleSlopes {
   };
   struct Share {
     Index triangle = 0;
-    Vec2f weight = Vec2f::Zero();  // area times gradient
+    Vec2f weight = Vec2f::Zero();  // area times gradient of the hat function
   };
 
   std::vector<Corners> triangles_;
@@ -49,10 +50,10 @@ class TriangleSlopes {
 
 // Minimises the weighted sum over triangles of |slope - target slope|^2 under |slope + slope of the base| <=
 // limit. The method is ADMM (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and
-// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit, and fits heights to the
-// projected slopes by a system that is factored once. Then it adds the remaining difference to a dual
-// variable. Iterations end when slopes and heights agree. Each call starts from the result of the last one.
-// Not for concurrent use.
+// Eckstein, 2011). Each iteration projects the slope of each triangle onto the limit. The projection changes
+// the slope; this change is added to a dual variable. Then heights are fitted to the target slopes and the
+// projected slopes, by a system that is factored once. Iterations end when hardly any triangle exceeds the
+// limit, or after 200 of them. Each call starts from the result of the last one. Not for concurrent use.
 class NearestDraft {
  public:
   // `system` is the system of `surface`; both must outlive this object. `base` has a height per point, or is
@@ -86,8 +87,8 @@ class NearestDraft {
   TriangleSlopes triangles_;
   float max_slope_;
   HeightSystem::Workspace workspace_;
-  // Slopes per triangle, in this order: those of the base (or empty); the target; the shortened target;
-  // the projected slopes; the dual variable; and the slopes that heights are fitted to.
+  // Slopes per triangle, in this order: those of the base (or empty); the target; the shortened target; the
+  // projected slopes; the dual variable; and the slopes that the change of the heights is fitted to.
   std::vector<Vec2f> base_, given_, counted_, projected_, dual_, field_;
   std::vector<float> first_, heights_, change_;  // per point: target, current, and change
   bool is_started_ = false;

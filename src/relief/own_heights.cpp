@@ -144,9 +144,10 @@ void OwnHeights::apply(double height, std::span<Real> z, Workspace<Real>& worksp
     workspace.solvers.push_back(models_[m].laplacian.make_workspace());
   workspace.before.assign(z.begin(), z.end());
   const double wanted = static_cast<double>(*std::ranges::max_element(z));
-  // Searches for the factor, applied to all heights outside of these models, that keeps the highest height
-  // unchanged. The highest height is a convex, piecewise linear function of the factor, so Newton's method
-  // converges in a few steps. One step is enough if the highest point belongs to none of these models.
+  // All heights outside of these models are multiplied by one factor. Searches for the factor that keeps the
+  // highest height of the relief unchanged. That height is a convex, piecewise linear function of the factor,
+  // so Newton's method converges in a few steps. One step is enough if the highest point belongs to none of
+  // these models.
   constexpr int most_steps = 8;
   constexpr double tolerance = 1e-6;
   double factor = 1;

@@ -16,9 +16,9 @@ struct Surface;
 // are treated as one.
 //
 // A harmonic surface continues the heights around a model behind it. The model's heights above that surface
-// are scaled until their maximum is the requested height, but at most the depth of the model itself. If that
-// is less than the requested height, a wall of constant height along the model's edge adds the rest. A level
-// model, such as a letter, consists of its wall alone.
+// are scaled until their maximum is the requested height or, if that is less, the depth of the model itself.
+// If it is the depth, a wall of constant height along the model's edge adds the rest of the requested height.
+// A level model, such as a letter, consists of its wall alone.
 //
 // If the highest point of the relief changes, all other heights are scaled, so that the height of the relief
 // does not change. Otherwise the other heights keep their values.
@@ -56,8 +56,8 @@ class OwnHeights {
     std::vector<Link> links;       // edges with one or both ends in `points`
     solver::Cholesky laplacian;
   };
-  // The highest height of a relief. `scaled` is the part of `z` that is proportional to the factor by
-  // which the heights outside of these models are multiplied.
+  // The highest height of a relief. `z` is a sum; its part `scaled` is proportional to the factor by which
+  // the heights outside of these models are multiplied.
   struct Top {
     double z = 0, scaled = 0;
   };

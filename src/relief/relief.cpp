@@ -30,8 +30,8 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
-  // The parts that depend only on the surface. `solver` is either the system of all points or the model
-  // of the control points.
+  // The parts of a model that depend only on its surface. `solver` is either the system of all points or the
+  // model of the control points.
   struct Parts {
     std::vector<PointLayers> layers;
     StepFields fields;

@@ -21,8 +21,8 @@ struct MatrixEntry {
 };
 
 // A sparse matrix, stored in slices of eight rows, so that vector instructions can read it. A slice has the
-// first entry of all eight rows, then the second entry of all rows, and so on. Rows of similar length, within
-// windows of 256 points, share a slice, which reduces padding (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske
+// first entry of all eight rows, then the second entry of all rows, and so on. To reduce padding, rows of
+// similar length within windows of 256 points share a slice (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske
 // and Bishop, 2014). Sums are computed in the order in which the entries are given.
 class SlicedEllMatrix {
  public:

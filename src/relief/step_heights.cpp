@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// The limit of the slopes that explain a part of a depth difference. Near a silhouette, normals steeper
-// than this are too inaccurate to predict depth.
+// Slopes explain a part of a depth difference. A slope steeper than this counts as this slope, because near a
+// silhouette, steeper normals are too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
 struct SteppedEdge {
@@ -86,9 +86,10 @@ std::vector<Index> numbers_near_walls(const Surface& surface, int steps) {
   return numbers;
 }
 
-// Computes the mean position and normal on each side of the walls, over about two sampling distances.
-// Single points would not do: at a chin before a neck, for example, the front can turn away so far that
-// its last rows of points are nearly as deep as the back. The means still differ by the whole depth.
+// Computes the mean position and normal on each side of the walls, over about two sampling distances. Single
+// points would not do. A chin before a neck, for example, can turn away from the viewer so far that its last
+// rows of points are nearly as deep as the neck. The mean positions still differ by the distance in depth
+// between chin and neck.
 class MeansBesideWalls {
  public:
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {

@@ -27,14 +27,15 @@ struct StepHeights {
 
 // The least-squares solutions of equation (9) for given height differences along the edges.
 struct StepFields {
-  // Across a depth jump the difference is the part of the depth difference that the slopes do not explain;
-  // along all other edges it is 0. These heights keep forms that consist of steps, such as letters on a
-  // plate.
+  // Across a depth jump, the given height difference is the part of the depth difference that the slopes do
+  // not explain. Along all other edges it is 0. These heights keep forms that consist of steps, such as
+  // letters on a plate.
   StepHeights steps;
-  // Across a wall the height difference is tanh(d / (0.05 side)), where side is the longer side; along all
-  // other edges it is 0. Positions and normals are averaged on both sides of the wall over about two sampling
-  // distances. d is the part of the difference in mean depth that slopes do not explain. So these steps are 1
-  // high at deep jumps, and fade out at the ends of a jump. They raise each part above the surface behind it.
+  // Across a wall, the given height difference is tanh(d / (0.05 side)), where side is the longer side. Along
+  // all other edges it is 0. Positions and normals are averaged on both sides of the wall over about two
+  // sampling distances. d is the part of the difference in mean depth that slopes do not explain. So these
+  // steps are 1 high at deep jumps, and fade out at the ends of a jump. They raise each part above the
+  // surface behind it.
   StepHeights planes;
 
   // `system` is the system of all points of the surface.

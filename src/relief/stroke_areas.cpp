@@ -82,7 +82,8 @@ StrokePoints points_near(const Surface& surface, std::span<const Vec3> line, dou
   return kept({in_box, distances}, [&](Index k) { return distances[k] < radius; });
 }
 
-// Calls f(a, b) for each triangle side inside the relief with is_wanted(a, b), unless it crosses a depth jump.
+// Calls f(a, b) for each triangle side from a to b inside the relief, if is_wanted(a, b) and the side does
+// not cross a depth jump.
 template <typename IsWanted, typename F>
 void each_link(const Surface& surface, IsWanted&& is_wanted, F&& f) {
   each_side_inside(surface, [&](Index a, Index b) {
@@ -178,7 +179,7 @@ std::vector<float> turning_of(const Surface& surface) {
     return Vec3(Vec3f(xy[i].x(), xy[i].y(), z[i].x()).cast<double>().normalized());
   };
   std::vector<double> angles(xy.size(), 0),
-      lengths(xy.size(), 0);  // sums of squares: degrees^2, (% of the longer side)^2
+      lengths(xy.size(), 0);  // sums of squares; units: degrees, % of the longer side
   const auto all = [](Index, Index) { return true; };
   each_link(surface, all, [&](Index a, Index b) {
     const double angle =

@@ -17,8 +17,8 @@ struct StrokePoints {
 
 // Returns the points of a stroke, without those on the boundary; none if the view does not show the stroke.
 //
-// A line consists of the points that are nearer to it than the radius in space, and that connect to points beside the
-// line without crossing a depth jump. Distances are measured from the line.
+// A line consists of points whose distance from it, in space, is less than the radius. They must connect to
+// points beside the line without crossing a depth jump. The distances in the result are those from the line.
 //
 // A lasso consists of the points that its closed line encloses when seen along the lasso's direction. Their normals
 // face the viewer who drew it, and they lie at most half of the lasso's size behind its deepest corner. So a lasso

@@ -44,8 +44,9 @@ SurfaceLinks surface_links(const Surface& surface) {
   return {std::move(links), point_areas(surface)};
 }
 
-// The blurred heights g solve areas (g - z) = -variance L g, one implicit step of diffusion. With g = z + e this is the
-// system (areas + variance L) e = -variance L z. At the points around the blurred ones e is 0.
+// The blurred heights g of the heights z solve areas (g - z) = -variance L g, one implicit step of diffusion;
+// L is the Laplacian of the links. With g = z + e this is the system (areas + variance L) e = -variance L z.
+// At the points around the blurred ones e is 0.
 template <typename Real>
 StrokeBlur<Real>::StrokeBlur(const Surface& surface, const SurfaceLinks& links, std::span<const Index> points,
                              double sigma)

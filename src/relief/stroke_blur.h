@@ -39,8 +39,8 @@ class StrokeBlur {
   const std::vector<Real>& removed() const { return removed_; }
 
  private:
-  // A link from a point to a point of points_. `to` is an index in points_. So is `from`, if it is below the size of
-  // points_; higher numbers continue in around_.
+  // A link from a point to a point of points_. `to` is an index in points_. If `from` is less than the size
+  // of points_, it is also an index in points_. Otherwise `from` minus this size is an index in around_.
   struct Link {
     Index to, from;
     Real pull;

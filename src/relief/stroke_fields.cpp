@@ -76,7 +76,7 @@ void StrokeFields<Real>::take_layers(const Strokes& strokes) {
   std::vector<std::optional<Layer>> old;
   for (Layer& layer : layers_) old.emplace_back(std::move(layer));
   layers_.clear();
-  std::size_t next = 0;  // tried first, because most strokes keep their order
+  std::size_t next = 0;  // index in `old` that is tried first, because most strokes keep their order
   for (const Stroke& stroke : strokes) {
     const auto is_same = [&](const std::optional<Layer>& layer) { return layer && layer->stroke == stroke; };
     const auto found = next < old.size() && is_same(old[next])

@@ -35,8 +35,8 @@ struct Crossing {
   Index behind;  // index of the surface point at the deeper end
 };
 
-// Returns the edges across depth jumps that begin at points of the mask with a weight of at least 1/2, and end at
-// deeper points outside of the mask.
+// Returns edges across depth jumps. Each begins at a point of the mask with a weight of at least 1/2, and
+// ends at a deeper point outside of the mask.
 std::vector<Crossing> crossings_of(const Surface& surface, const StrokeMask& mask);
 
 // The rise that a stroke should have above the surface behind it.

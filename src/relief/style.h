@@ -121,7 +121,7 @@ class LayeredStyle {
     return input.attention.empty() ? weights_ : by_attention_[input.attention[i]];
   }
 
-  // Return the parameters of slope(), for write_slopes_by_eight().
+  // These two functions return what write_slopes_by_eight() needs to compute the same as slope().
   double scale() const { return scale_; }
   double max_slope() const { return shape_.max_slope; }
 

@@ -10,8 +10,9 @@
 namespace relievo::solver {
 namespace {
 
-// The share of the vertices that is assigned to each side in advance. The remaining 30 % in the middle form the band
-// in which the separator is sought. A wider band allows a shorter separator, but sides that differ more in size.
+// The share of the vertices that is assigned to each side in advance. The remaining 30 % in the middle form
+// the band in which the separator is sought. A wider band allows a shorter separator, but the sizes of the
+// sides can then differ more.
 constexpr double core_share = .35;
 
 // The positions of the vertices along a direction, and the limits of the band.
@@ -47,7 +48,7 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
 
 // Returns the direction in which the positions spread most: the principal axis of their covariance.
 // Separators perpendicular to it are usually short. If the positions spread equally in all directions,
-// rounding decides; the result is still the same on every machine, because sums, quotients and square roots
+// rounding decides. The result is still the same on every machine, because sums, quotients and square roots
 // have the same bits everywhere.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -101,8 +102,8 @@ void count_sides(Bisection& cut) {
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// The band's graph lacks edges that cross the whole band, so these may still connect the two sides. Moves the ends of
-// such edges on the first side to the separator.
+// Edges that cross the whole band are not in the band's graph, so they may still connect the two sides. Each
+// such edge has one end on the first side. Moves this end to the separator.
 void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;
@@ -114,9 +115,9 @@ void close_gaps(const Graph& graph, Bisection& cut) {
 }
 
 // Estimates the number of factor entries that a bisection causes. A separator of s vertices is eliminated as
-// a dense triangle of s^2 / 2 entries, plus s entries in each row below it, on average 2.2 sqrt(n) rows.
-// Sides of unequal size cause 2 n (1 - H) more entries than equal ones; H is the entropy of the split in
-// bits. See docs/decisions/solver.md.
+// a dense triangle of s^2 / 2 entries. Each row below the triangle adds s entries; on average there are 2.2
+// sqrt(n) such rows. Sides of unequal size cause 2 n (1 - H) more entries than equal ones; H is the entropy
+// of the split in bits. See docs/decisions/solver.md.
 double cost(const Bisection& cut) {
   if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
   const double n = static_cast<double>(cut.side.size()), s = cut.separator;
@@ -164,8 +165,8 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-// Bisects by the order in which a breadth-first search visits the vertices, which replaces a coordinate. The search
-// starts at a vertex at the rim of the graph.
+// Bisects by the order in which a breadth-first search visits the vertices. This order replaces a coordinate.
+// The search starts at a vertex at the rim of the graph.
 Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());

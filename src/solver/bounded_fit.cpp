@@ -18,24 +18,24 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// Returns H x if `misfit` is A x, where H is the Hessian of the energy; returns the gradient of the energy if
-// `misfit` is A x - load.
+// H is the Hessian of the energy. Returns H x if `misfit` is A x, and the gradient of the energy if `misfit`
+// is A x - load.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }
 
 // The matrix H + D of a Newton step; D is diagonal. Systems with this matrix are solved by preconditioned
 // conjugate gradients. A membrane has H = A, and the preconditioner is A + D. A plate has H = A M^-1 A, and
-// the preconditioner is (A + E) M^-1 (A + E) with E = sqrt(M D), which equals H + D plus mixed terms (Pearson
-// and Wathen, 2012). The number of iterations hardly grows with the number of unknowns. The only matrix that is
-// factored, A + D or A + E, is as sparse as A.
+// the preconditioner is (A + E) M^-1 (A + E) with E = sqrt(M D). This product is H + D plus mixed terms
+// (Pearson and Wathen, 2012). The number of iterations hardly grows with the number of unknowns. The only
+// matrix that is factored, A + D or A + E, is as sparse as A.
 class NewtonMatrix {
  public:
   static Result<NewtonMatrix> factor(const BoundedFit& fit, Vector D) {
     Eigen::SparseMatrix<double> shifted = fit.A;
     const Vector E = is_plate(fit) ? Vector(fit.mass.cwiseProduct(D).cwiseSqrt()) : D;
-    // A alone is nearly singular, and D is small far from the bounds. With this least shift, the effect of a
-    // force decays over about 300 edges.
+    // A alone is nearly singular, and D is small far from the bounds. So each diagonal entry of A grows by at
+    // least this share of itself. The effect of a force then decays over about 300 edges.
     constexpr double least_shift = 1e-5;
     for (int i = 0; i < shifted.cols(); ++i) {
       double& diagonal = shifted.coeffRef(i, i);
@@ -45,7 +45,7 @@ class NewtonMatrix {
     return NewtonMatrix(fit, std::move(D), std::move(factor));
   }
 
-  // Solves until the residual is a hundredth of that at the start; the next Newton step corrects the rest.
+  // Solves until the residual is a hundredth of the first residual; the next Newton step corrects the rest.
   Vector solve(const Vector& b) {
     constexpr int most_iterations = 200;
     constexpr double reduction = 1e-2;
@@ -137,7 +137,8 @@ class InteriorPoint {
   const BoundedFit& fit_;
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
-  // The next step aims at the same product of distance and multiplier at all bounds: this share of the present mean.
+  // Each bound has a product: the distance of x from the bound, times the bound's multiplier. The next step
+  // aims at the same product at all bounds. It is this share of the present mean product.
   double centring_ = .2;
 };
 

@@ -13,8 +13,8 @@ namespace relievo::solver {
 // Minimises E(x) under lowest <= x <= highest, where
 //   E(x) = 1/2 x^T A x - load^T x   or, if `mass` is the diagonal of a matrix M,
 //   E(x) = 1/2 (A x - load)^T M^-1 (A x - load).
-// If A is the Laplacian of a triangulation, the first is a membrane and the second a thin plate. Vectors have
-// an element per unknown.
+// If A is the Laplacian of a triangulation, the first energy is that of a membrane. The second one is that of
+// a thin plate. Vectors have an element per unknown.
 struct BoundedFit {
   Eigen::SparseMatrix<double> A;  // lower triangle with all diagonal entries; positive semidefinite
   Eigen::VectorXd mass = {};      // > 0, or empty
@@ -33,8 +33,9 @@ struct BoundedFitResult {
   int steps = 0;  // number of factorisations
 };
 
-// Minimises the energy. Stops when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or after 100
-// steps. Errors: those of Cholesky::factor(), also if the tolerance is below the level of rounding errors.
+// Minimises the energy. Stops when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or
+// after 100 steps. Errors: those of Cholesky::factor(). A tolerance below the level of rounding errors leads
+// to them, too.
 Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

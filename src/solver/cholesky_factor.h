@@ -12,19 +12,20 @@
 
 namespace relievo::solver {
 
-// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly tree, or
-// a single supernode above them. The division into tasks depends only on the matrix, not on the number of threads.
+// Consecutive columns that one thread processes without interruption: either whole subtrees of the assembly
+// tree, or a single supernode above such subtrees. The division into tasks depends only on the matrix, not on
+// the number of threads.
 //
-// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary row is a
-// row of the task's supernodes that is a column of another task, an ancestor. A task writes only to its own work
-// vector. In its boundary rows it leaves amounts, which its parent adds to its own work vector. So results do not
-// depend on the number of threads.
+// Each task has a work vector with one number per column of its own, then one per boundary row. A boundary
+// row is a row of the task's supernodes that is a column of another task, an ancestor. A task writes only to
+// its own work vector. In its boundary rows it leaves amounts, which the parent task adds to the parent's
+// work vector. So results do not depend on the number of threads.
 struct Task {
   Index first_column = 0, end_column = 0;
   Index first_node = 0, end_node = 0;      // range of the task's supernodes
   Index parent = no_index;                 // number of the parent task, always higher than that of this task
   Index first_child = 0, end_child = 0;    // range in Factor::children
-  Index first_boundary = 0, boundary = 0;  // start and size of the range in boundary and to_parent
+  Index first_boundary = 0, boundary = 0;  // start and size of its range in Factor::boundary and to_parent
   std::size_t work_begin = 0;              // start of the task's work vector in the workspace
   std::size_t values = 0, end_values = 0;  // range in Factor::values
   std::size_t rows = 0, end_rows = 0;      // range in Factor::rows
@@ -33,12 +34,13 @@ struct Task {
   Index own() const { return end_column - first_column; }
 };
 
-// The largest size of the work vector of a task that is a subtree, because positions in it are stored in 16 bits.
+// A task that is a subtree has a work vector of at most this size, because positions in it are stored in 16
+// bits.
 inline constexpr Index largest_subtree_work_vector = 0xFFFF;
 
-// The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is stored
-// once, at the earlier column. An entry between two tasks is stored in both. So each task can compute its rows of a
-// product with the matrix without writing to the rows of the other task.
+// The off-diagonal entries of the matrix in compressed sparse rows, task by task. An entry within a task is
+// stored once, at the earlier column. An entry between two tasks is stored in the rows of both tasks. So each
+// task can compute its rows of a product with the matrix without writing to the rows of another task.
 struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};
@@ -61,7 +63,7 @@ struct Cholesky::Factor {
   std::vector<Index> to_parent;  // per boundary column: its row in the parent's work vector
   std::vector<NodeSize> nodes;
   std::vector<std::uint16_t> rows;  // see Subtree::rows
-  LargeArray values;                // the panels of W, task by task
+  LargeArray values;                // the panels, task by task
   std::size_t value_count = 0, work_count = 0;
   TaskMatrix matrix;
 };

@@ -12,8 +12,8 @@
 namespace relievo::solver {
 namespace {
 
-// A pivot smaller than this fraction of its diagonal entry counts as a rounded 0: double precision resolves 1e-16,
-// and the sums over the fill lose about two digits.
+// A pivot smaller than this fraction of its diagonal entry counts as a rounded 0, because double precision
+// resolves 1e-16, and the sums over the fill lose about two digits.
 constexpr double relative_pivot = 1e-14;
 
 // The lower triangle of a contribution block, packed column by column.
@@ -88,8 +88,8 @@ void Multifrontal::fill_matrix() {
   parallel_for(n, [&](std::size_t j) { matrix.diagonal[j] = A_.diagonal[factor_.order[j]]; });
 }
 
-// Adds the entries of `width` columns of A, from `first`, to the frontal matrix. Row r of the work vector corresponds
-// to row slot[r] of the frontal matrix.
+// Adds to the frontal matrix the entries of `width` columns of A; column `first` is the first of them. Row r
+// of the work vector corresponds to row slot[r] of the frontal matrix.
 void Multifrontal::add_matrix(const Task& task, Index first, Index width, std::span<const Index> slot,
                               FrontalMatrix& front) const {
   const TaskMatrix& matrix = factor_.matrix;
@@ -131,8 +131,8 @@ std::size_t packed_size(std::size_t rows) {
   return rows * (rows + 1) / 2;
 }
 
-// Eliminates a task that is a single supernode. The rows of its frontal matrix are the elements of the task's work
-// vector, in order.
+// Eliminates a task that is a single supernode. Row r of its frontal matrix corresponds to element r of the
+// task's work vector.
 void Multifrontal::eliminate_supernode(std::size_t t) {
   const Task& task = factor_.tasks[t];
   FrontalMatrix front;
@@ -209,8 +209,8 @@ class Multifrontal::Subtree {
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
-    // Column c of a packed triangle begins with row c. Subtracting packed_size(c) moves row r of column c to position
-    // r.
+    // In a packed triangle, column c begins with its row c, so row r is r - c elements behind this beginning.
+    // The returned pointer is c elements before it, so that row r is r elements behind the pointer.
     add_packed(stack_.data() + pending_.back().begin, child_slots_, [&](Index c) {
       return contribution_.data() + std::size_t{c} * task_.boundary - packed_size(c);
     });

@@ -221,7 +221,7 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
   double last = refinement.start(b), rate = 1;
   const double enough = 1e-13 * last;
-  const int most_steps = 6;  // each step gains about seven digits; two suffice unless A is ill-conditioned
+  const int most_steps = 6;  // each step gains about 7 digits; two steps suffice unless A is ill-conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
     // All steps reduce the residual by about the same factor. If by this estimate the next residual is small enough,

@@ -21,7 +21,7 @@ class MinimumDegree {
   // Permutes the vertices of `piece` so that eliminating them in that order, before all others, causes little
   // fill. The next vertex is always one with the fewest remaining neighbours, including neighbours outside
   // the piece. These degrees are exact and computed with bit sets. So time and memory grow at least with the
-  // square of the size: the function is meant for up to a few hundred vertices.
+  // square of the size, and the function is meant for up to a few hundred vertices.
   void order(std::span<Index> piece) {
     gather(piece);
     std::vector<Index> sequence;

@@ -27,9 +27,9 @@ struct Graph {
 enum class Side : std::uint8_t { first, second, separator };
 
 // The part of a graph in which a separator is sought. Vertices marked in `touches_first` have neighbours on
-// the first side of the band, vertices marked in `touches_second` on the second side. The search takes linear
-// time if the positions draw the graph without crossings and each vertex lists its neighbours
-// counter-clockwise. Otherwise the search takes longer, but its result is the same.
+// the first side of the band. Vertices marked in `touches_second` have neighbours on the second side. The
+// search takes linear time if the positions draw the graph without crossings and each vertex lists its
+// neighbours counter-clockwise. Otherwise the search takes longer, but its result is the same.
 struct SeparatorBand {
   Graph graph;
   std::vector<Eigen::Vector2f> positions;
@@ -61,7 +61,7 @@ Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions)
 
 // Returns the vertices in an elimination order that causes little fill. The order is computed recursively:
 // separators come after both sides; small parts are ordered by minimum degree. `positions` (finite, one per
-// vertex) only guide the search: bad positions cause more fill, but never a wrong result. The search is
+// vertex) only guide the search. Bad positions cause more fill, but never a wrong result. The search is
 // faster if nearby vertices have similar indices. The result is the same for any number of threads.
 std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 

@@ -28,8 +28,8 @@ RELIEVO_INLINE const Double4& at(const double* p) {
   return *reinterpret_cast<const Double4*>(p);
 }
 
-// Subtracts the product from 4 * Height rows and Width columns of C, which stay in registers. Sums over the columns
-// of A and B from `from` to `to`.
+// Subtracts the product from a tile of C with 4 * Height rows and Width columns. The tile stays in registers.
+// Only the columns of A and B from `from` up to, but not including, `to` are multiplied.
 template <int Height, int Width>
 RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
   Double4 sum[Height][Width] = {};
@@ -61,7 +61,7 @@ RELIEVO_INLINE void subtract(const Product& p) {
   }
 }
 
-// Adds factor x to y for the elements [from, to), and for up to three padding elements after them.
+// Adds factor * x to y for the elements [from, to), and for up to three padding elements after them.
 RELIEVO_INLINE void add_multiple(double* y, const double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(y + i) += at(x + i) * factor;
 }
@@ -116,8 +116,9 @@ Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
 
-// Eliminates the left half of the columns, updates the right half by a matrix product, and eliminates that. Halves are
-// halved again until few columns are left, so that matrix products do nearly all arithmetic.
+// Eliminates the left half of the columns, updates the right half by a matrix product, and then eliminates
+// the right half. Halves are halved again until few columns are left, so that matrix products do nearly all
+// arithmetic.
 Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
                             std::span<const double> smallest_pivot) {
   if (width <= narrow) return RELIEVO_WIDE(eliminate(front, begin, width, smallest_pivot));
@@ -130,9 +131,14 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
   return std::min(failed, failed_later);
 }
 
-// Inverts the right half of the columns, then the left half. Let the left columns be [La; Lb; Ld] and the right ones
-// [Lc; Le]. First the right ones are replaced by their inverse [Wc; We]. Then the rows below La become
-// [Wc Lb; Ld + We Lb]. Last the left columns are inverted.
+// Inverts the right half of the columns, then the left half. The blocks of both halves change in this order:
+//
+//   given:          right columns:   rows below La:       left columns:
+//   La              La               La                   La^-1
+//   Lb  Lc          Lb  Wc           Wc Lb       Wc       -Wc Lb La^-1           Wc
+//   Ld  Le          Ld  We           Ld + We Lb  We       -(Ld + We Lb) La^-1    We
+//
+// Wc is Lc^-1, and We is -Le Lc^-1.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;

@@ -12,8 +12,9 @@ namespace {
 // remove them. A sweep costs a quarter of a sweep on the next finer level, so all these sweeps take about as long as
 // 14 sweeps of the finest level. For the choice of these numbers see docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
-// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 as the number of nodes per
-// side grows. 1.6 suits the errors of short wavelength that remain on the finer levels.
+// Successive over-relaxation converges for factors in (0, 2). The best factor approaches 2 as the number of
+// nodes per side of the lattice grows. 1.6 suits the errors of short wavelength that remain on the finer
+// levels.
 constexpr float over_relaxation = 1.6F;
 // The number of sweeps between updates of the forces between pairs of nodes, per level from fine to coarse. More
 // updates improve none of the measures (docs/decisions/near-order.md).
@@ -98,9 +99,10 @@ std::size_t ObstacleSolver::Level::memory() const {
   return sum;
 }
 
-// Returns the next coarser level, with every other node of every other row. The bending stiffness of a coarse node is
-// the least of those of the fine node at its position and of that node's free neighbours. Its tension is the harmonic
-// mean of those of the fine node and its four neighbours. So thin hinges between stiff regions remain.
+// Returns the next coarser level, with every other node of every other row. A coarse node gets the least
+// bending stiffness among the fine node at its position and the free neighbours of that fine node. It gets
+// the harmonic mean of the tensions of the fine node and its four neighbours. So thin hinges between stiff
+// regions remain.
 ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
@@ -158,9 +160,9 @@ void ObstacleSolver::Level::start(Fields& f) const {
   }
 }
 
-// Makes one step of projected over-relaxation at a node. Moves b towards the minimum of the energy by over_relaxation
-// times the distance, clamps it to its bounds, and updates the moments of the node and its neighbours. Returns the
-// change.
+// Makes one step of projected over-relaxation at a node. Moves b towards the minimum of the energy by
+// over_relaxation times the distance. Then clamps b to its bounds, and updates the moments of the node and
+// its neighbours. Returns the change.
 inline float ObstacleSolver::Level::move(Index n, const Slope& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
@@ -257,8 +259,8 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
     // A node of level l represents 4^l nodes of the finest level.
     Springs here = springs;
     here.order.stiffness *= static_cast<float>(1 << 2 * l);
-    // The stiffness of a coarse tie is the sum of those of several fine ties. The sweeps would not converge with it, so
-    // the factors of the ties are reduced.
+    // A coarse tie has the sum of the stiffnesses of several fine ties. The sweeps would not converge with
+    // this sum, so the factors of the ties are reduced.
     here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
     here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], sweeps_per_update[l], here, w[l]);

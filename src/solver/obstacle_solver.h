@@ -15,7 +15,7 @@ namespace relievo::solver {
 // pulls b up to this value. `order` has the strengths of the forces between pairs of nodes.
 struct Springs {
   float tie_stiffness = 1;  // factor of the ties, >= 0
-  // The least value of b at ties, below which a second force pulls b upwards.
+  // If b is below this value at a tie, a second force pulls it upwards.
   float least_at_ties = -std::numeric_limits<float>::infinity();
   float stop_stiffness = 10;  // factor of the force towards least_at_ties, >= 0
   OrderLimits order = {};
@@ -42,9 +42,9 @@ struct Stiffness {
 // of nodes, OrderPull repeatedly computes hold and load from the current b. Nodes on the lattice's rim must
 // be fixed.
 //
-// The method is projected successive over-relaxation on lattices with cells of 8, 4, 2 and 1. Each lattice
-// starts from the solution of the coarser one. Const calls may run concurrently if each has its own
-// workspace.
+// The method is projected successive over-relaxation on four lattices. Their cells are 8, 4, 2 and 1 times as
+// wide as the cells of the given lattice. Each lattice starts from the solution of the coarser one. Const
+// calls may run concurrently if each has its own workspace.
 class ObstacleSolver {
  public:
   static constexpr std::size_t levels = 4;
@@ -78,9 +78,10 @@ class ObstacleSolver {
     levels_[0].each_node(f);
   }
 
-  // Writes the solution to b of workspace[0]. Reads from workspace[0] the bounds, lowest <= highest, and the
-  // heights if there are pairs, otherwise load and hold. Overwrites the other levels. Values at fixed nodes
-  // are ignored, except that b and moment must be 0 there, as make_workspace() leaves them.
+  // Writes the solution to b of workspace[0]. Reads the bounds from workspace[0]; `lowest` must be at most
+  // `highest`. If there are pairs, also reads the heights from workspace[0], otherwise load and hold.
+  // Overwrites the other levels. Values at fixed nodes are ignored, except that b and moment must be 0 there,
+  // as make_workspace() leaves them.
   void solve(const Springs& springs, Workspace& workspace) const;
 
  private:
@@ -125,9 +126,9 @@ class ObstacleSolver {
     };
     struct TiedNode {
       Index node;
-      // The parts in the ties of the four cells around the node. If a cell has no tie, the weight is 0, and `tie` is
-      // the index of an unused value in at_ties that belongs to this node alone. If nodes shared that value, each
-      // update would have to wait for the write of the previous one.
+      // The node's parts in the ties of the four cells around it. If a cell has no tie, the weight is 0, and
+      // `tie` is the index of an unused value in at_ties that belongs to this node alone. If nodes shared
+      // that value, each update would have to wait for the write of the previous one.
       std::array<Share, 4> shares;
     };
     struct Colour {

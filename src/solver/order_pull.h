@@ -8,9 +8,9 @@
 
 namespace relievo::solver {
 
-// Pairs of nodes at the distances `distances`, in cells, along rows, columns and both diagonals. The nearer node of a
-// pair should be higher by OrderLimits::height * tanh(|difference of depth| / saturation), times the shares of both
-// nodes.
+// Pairs of nodes at the distances `distances`, in cells, along rows, columns and both diagonals. The nearer
+// node of a pair should be higher by the product of OrderLimits::height, tanh(|difference of depth| /
+// saturation), and the shares of both nodes.
 struct OrderedPairs {
   std::span<const float> depth;  // per node, larger is nearer
   std::span<const float> share;  // per node, in [0, 1]; nodes with share 0 are in no pair
@@ -34,10 +34,9 @@ class OrderPull {
   bool empty() const { return directions_.empty(); }
   std::size_t memory() const;
 
-  // Writes `hold` and `load` so that for some constant c, c + 1/2 sum(hold x^2) - sum(load x) is an upper bound of the
-  // energy of a field x. At x = b the bound equals the energy. `heights` are the heights without the field; `lack` is
-  // scratch memory.
-  // All spans have an element per node.
+  // Writes `hold` and `load` so that for some constant c, c + 1/2 sum(hold x^2) - sum(load x) is an upper
+  // bound of the energy of a field x. At x = b the bound equals the energy. `heights` are the heights without
+  // the field; `lack` is scratch memory. All spans have an element per node.
   struct Bound {
     std::span<float> load, hold, lack;
   };

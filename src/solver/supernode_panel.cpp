@@ -39,7 +39,7 @@ RELIEVO_INLINE void add_strip(const float* strip, Index rows, const float* b, fl
   four(out + r) = sum;
 }
 
-// Writes the sum of the elements of each of four vectors to `sums`.
+// Writes the sum of the elements of v[i] to sums[i], for i from 0 to 3.
 RELIEVO_INLINE void add_across(const Float4* v, float* sums) {
   const Float4 ab =
       __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5) + __builtin_shufflevector(v[0], v[1], 2, 6, 3, 7);
@@ -146,8 +146,8 @@ RELIEVO_INLINE void forward(const Subtree& subtree) {
   }
 }
 
-// Copies work[rows[i]] to x[i]. Vectors are put together in registers: loading a vector from memory right after
-// storing its elements one by one would stall.
+// Copies work[rows[i]] to x[i]. Vectors are put together in registers, because the processor would stall if
+// it loaded a vector from memory right after storing its elements one by one.
 RELIEVO_INLINE void gather(const float* work, const std::uint16_t* rows, Index count, float* x) {
   Index i = 0;
   for (; i + 8 <= count; i += 8, rows += 8)

@@ -1,11 +1,13 @@
-// Provides the dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal method, and on
-// panels. The panel of a supernode is its dense part of the inverted factor W, by which substitutions multiply.
-// Tested by tests/solver/cholesky_test.cpp.
+// Provides the dense arithmetic of a sparse factorisation: on the frontal matrices of the multifrontal
+// method, and on panels. The panel of a supernode is the dense matrix W that invert_columns() makes from the
+// supernode's columns of the factor. Substitutions multiply vectors by panels. Tested by
+// tests/solver/cholesky_test.cpp.
 //
-// A panel consists of strips of eight columns. Each strip begins at its own first row, because a supernode is lower
-// triangular. Rows are padded with zeros to a multiple of four. Within a strip, rows are stored in blocks of eight,
-// and blocks by columns; if four rows remain, the last block has four. Forward substitution reads the values from
-// front to back, backward substitution from back to front.
+// A panel consists of strips of eight columns. Each strip begins at its own first row, because the columns of
+// a supernode form a lower triangle. Zeros are added below the last row until the number of rows is a
+// multiple of four. Within a strip, rows are stored in blocks of eight, and blocks by columns; if four rows
+// remain, the last block has four. Forward substitution reads the values from the first to the last,
+// and backward substitution reads them from the last to the first.
 #pragma once
 
 #include <cstddef>
@@ -51,12 +53,13 @@ struct NodeSize {
   Index width = 0, below = 0;
 };
 
-// The largest number of rows of a supernode inside a subtree, because the products keep a copy on the stack.
+// The largest number of rows of a supernode inside a subtree. It is limited because the products keep a copy
+// of the rows' elements of the work vector on the stack.
 inline constexpr Index largest_subtree_rows = 2048;
 
 // Consecutive supernodes in postorder. Their columns are consecutive elements of `work`, the task's work
-// vector. `rows` lists, for each supernode, the positions of its rows in `work`, including its own columns,
-// padded to padded_rows() with any valid position.
+// vector. `rows` has a list for each supernode: the positions of its rows in `work`, first those of its own
+// columns. Each list is filled up to padded_rows() elements with any valid position.
 struct Subtree {
   std::span<const NodeSize> nodes;
   const float* values;
@@ -64,13 +67,14 @@ struct Subtree {
   float* work;
 };
 
-// Forward substitution: multiplies the work vector's elements of the subtree's columns by L^-1, and updates
-// the elements of the rows below.
+// Forward substitution: multiplies by L^-1 those elements of the work vector that belong to the subtree's
+// columns. Updates the elements of the rows below them.
 void substitute_forward(const Subtree& subtree);
 
-// Backward substitution: multiplies the work vector by L^-T. Reads the elements of the rows below the subtree, which
-// must be final, and overwrites the elements of its columns. Goes from the last supernode to the first. So end.values
-// and end.rows must point just past the values and rows of the last supernode. end.work is the same as for the forward direction.
+// Backward substitution: multiplies the work vector by L^-T. Reads the elements of the rows below the
+// subtree, which must be final, and overwrites the elements of its columns. Goes from the last supernode to
+// the first. So end.values and end.rows must point just past the values and rows of the last supernode.
+// end.work is the same as for the forward direction.
 void substitute_backward(const Subtree& end);
 
 // Forward and backward substitution for a single supernode of any size whose rows are the whole work vector, in

@@ -227,8 +227,8 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
-// Merges each group into one supernode. Its rows are those of the topmost member, which include all rows of the
-// others that are outside the group.
+// Merges each group into one supernode. Its rows are those of the topmost member of the group. They include
+// all rows of the other members that are outside the group.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;

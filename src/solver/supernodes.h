@@ -27,8 +27,8 @@ struct Supernodes {
 };
 
 // Returns the supernodes for eliminating `graph` in the given order, or in an order with the same fill.
-// Consecutive columns with the same structure form a supernode. Supernodes are merged, which stores some
-// zeros, if that makes a substitution cheaper.
+// Consecutive columns with the same structure form a supernode. Supernodes are merged if that makes a
+// substitution cheaper, although the merged panel then contains some zeros.
 Supernodes analyse(const Graph& graph, std::span<const Index> order);
 
 // Returns the number of floats of a supernode's panel with `width` columns and `below` rows under them, see

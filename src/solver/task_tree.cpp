@@ -9,9 +9,9 @@
 namespace relievo::solver {
 namespace {
 
-// Returns the largest number of columns of a task that is a subtree: small enough for at least about 64
-// tasks, and large enough that few rows belong to two tasks. It is at most 16,384, so that positions in a
-// work vector fit into 16 bits.
+// Returns the largest number of columns of a task that is a subtree. It is so small that there are at least
+// about 64 tasks, and so large that few rows belong to two tasks. It is at most 16,384, so that positions in
+// a work vector fit into 16 bits.
 Index subtree_limit(std::size_t columns) {
   return static_cast<Index>(std::clamp<std::size_t>(columns / 64, 1024, 16384));
 }
@@ -89,9 +89,9 @@ class TaskTreeBuilder {
     return task_of;
   }
 
-  // Sorts the tasks by height, the order in which threads take them. Tasks of the same height do not depend
-  // on each other, so the many leaves keep all threads busy, and a task rarely waits for its children. The
-  // sort is stable, so the order is reproducible.
+  // Sorts the tasks by their height in the tree, because threads take them in this order. Tasks of the same
+  // height do not depend on each other, so the many leaves keep all threads busy, and a task rarely waits for
+  // its children. The sort is stable, so the order is reproducible.
   void sort_by_height() {
     const std::vector<Index> task_of = tasks_of_nodes();
     std::vector<Index> height(tasks_.size(), 0), sequence(tasks_.size());
@@ -130,7 +130,8 @@ class TaskTreeBuilder {
     for (Task& task : result_->tasks) {
       find_rows_in_parent(task);
       if (task.is_subtree) find_rows(task);
-      // A supernode above the subtrees needs a copy of its columns, padded to vectors of eight.
+      // The substitutions of a single supernode copy the elements of its columns. The copy is padded to
+      // vectors of eight.
       const Index scratch = task.is_subtree ? 0 : task.own() + 8;
       task.work_begin = result_->work_count;
       // The size is rounded up to whole cache lines of 16 floats, with at least eight floats of padding, so that no

@@ -160,8 +160,8 @@ class PathFlow {
     return false;
   }
 
-  // Returns the state after the entrance of v: the exit of v if no path uses v; otherwise the exit of the previous
-  // vertex of this path, or no_index if the path begins at v.
+  // Returns the state after the entrance of v. If no path uses v, this is the exit of v. Otherwise it is the
+  // exit of the previous vertex of the path through v, or no_index if this path begins at v.
   Index inner_arc(Index v) const {
     if (!is_used_[v]) return 2 * v + 1;
     return previous_[v] == no_index ? no_index : 2 * previous_[v] + 1;

@@ -62,8 +62,9 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
 
 constexpr int band_rings = 3;  // rings of triangles around creases; they form the band, whose points are kept
 constexpr int most_divisions = 16;
-// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band. Samples of quartered
-// squares need only half of it. `apart_in_band` is the distance between points of the band that are not on creases.
+// Smallest distances, in grid steps. `apart` is the distance from samples to points of the band. Samples of
+// quartered squares need only half of this distance. `apart_in_band` is the distance between points of the
+// band that are not on creases.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
@@ -148,8 +149,9 @@ class Sampler {
     }
   }
 
-  // Divides each edge of the smooth triangles in the band near creases into the same number of parts, so
-  // that the median part is about as long as the resolution. New points on creases stay on the creases.
+  // Divides each edge of the smooth triangles in the band near creases. All edges get the same number of
+  // parts, so that the median part is about as long as the resolution. New points on creases stay on the
+  // creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -179,7 +181,8 @@ class Sampler {
       }
   }
 
-  // Divides the edge of these triangle sides, if at least one of its triangles is smooth.
+  // Divides an edge if at least one of its triangles is smooth. `sides` are the sides of these triangles at
+  // the edge.
   void divide_edge(std::span<const TriangleSide> sides) {
     const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
     if (std::ranges::none_of(sides, is_smooth)) return;
@@ -217,7 +220,7 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a sample near the middle of each square outside the band, which lies near creases and the hull.
+  // The band lies near creases and the hull. Outside the band, adds a sample near the middle of each square.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));
@@ -252,8 +255,8 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the centres of a square's quarters as samples, except those close to a point of the band
-  // near creases. `quarters` is a grid with half the step.
+  // Adds the centres of a square's quarters as samples, except those close to a point of the band near
+  // creases. The grid `quarters` has half the step of grid_.
   void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
       const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;

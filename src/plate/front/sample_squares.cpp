@@ -10,7 +10,8 @@ namespace {
 // The curvature counts as even where the angle between neighbouring cells changes by at most this share of
 // the angle. Elsewhere, as on rough surfaces, the curvature is uneven, and facets are invisible.
 constexpr float most_change = .25F;
-// An angle of at least this many facet angles is a crease. Smaller facets would not make it smoother.
+// If the angle between neighbouring cells is at least this many facet angles, there is a crease between them.
+// Smaller facets would not make it smoother.
 constexpr float crease = 3;
 
 // Returns the sine of the angle between the normals of two slopes.

@@ -48,8 +48,8 @@ std::vector<Edge> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// The triangles of the approximation that an edge of the original enters after its first one. If they are
-// more than three, the last entry is `unknown`.
+// An edge of the original begins in one triangle of the approximation. Lists the triangles that it enters
+// after that one. If they are more than three, the last entry is `unknown`.
 using Passed = std::array<Index, 3>;
 constexpr Index unknown = no_index - 1;
 
@@ -136,9 +136,9 @@ class Simplifier {
     return count;
   }
 
-  // Removes candidates that would exceed the limit of triangles. If there is a limit, the half of the
-  // candidates with the smaller errors is postponed, too. Then errors are similar everywhere when the limit
-  // is reached. A point adds two triangles; a point on the hull adds one.
+  // Removes candidates with which the number of triangles would exceed its limit. If there is a limit, the
+  // half of the candidates with the smaller errors is postponed, too. Then errors are similar everywhere when
+  // the limit is reached. A point adds two triangles; a point on the hull adds one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles
@@ -258,10 +258,10 @@ class Simplifier {
     if (off != no_index) found.candidates.push_back({off, error, i});
   }
 
-  // Measures the errors on an edge of the original. The difference of two piecewise flat surfaces has its
-  // extremes at the original's points, which include the approximation's, and where edges of both surfaces
-  // cross. An edge within one triangle crosses no edge of the approximation. If the triangles along an
-  // edge are unchanged, its errors are unchanged, too.
+  // Measures the errors on an edge of the original. The error is the difference of two piecewise flat
+  // surfaces. Its extremes are at points of the original, which has all points of the approximation, and at
+  // crossings of edges of both surfaces. An edge within one triangle crosses no edge of the approximation. If
+  // the triangles along an edge are unchanged, its errors are unchanged, too.
   void measure_edge(Index e, Found& found) {
     const Edge& edge = edges_[e];
     const Index begin = containing_[edge.a], end = containing_[edge.b];
@@ -283,9 +283,10 @@ class Simplifier {
     });
   }
 
-  // Chooses the point that is added for an error on an edge of the original. The first of these that is not chosen yet
-  // is added: the nearer end, the farther end, the two opposite corners. Once all four are chosen, the edge is in the
-  // Delaunay triangulation, unless the four lie on one circle. In that case the crossing becomes a new point.
+  // Chooses the point that is added for an error on an edge of the original. It is the first one of the
+  // following points that is not chosen yet: the nearer end, the farther end, the two opposite corners. Once
+  // all four are chosen, the edge is in the Delaunay triangulation, unless the four lie on one circle. In
+  // that case the crossing becomes a new point.
   Candidate with_point(Candidate c) const {
     if (c.point != no_index) return c;
     const Edge& edge = edges_[c.edge];

@@ -14,9 +14,9 @@
 namespace relievo {
 namespace {
 
-// Blurs heights in the view plane, because the solution of equation (9) has no jumps there. A single blur
-// is piecewise linear over cells as wide as its Gaussian, and amplified detail would show these cells. So
-// sixteen narrow blurs replace one wide blur.
+// Blurs heights. Distances are measured in the view plane instead of space, because the solution of equation
+// (9) has no jumps. A single blur is piecewise linear over cells as wide as its Gaussian, and amplified
+// detail would show these cells. So sixteen narrow blurs replace one wide blur.
 std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
   std::vector<Vec3> flat = surface.points;
   for (Vec3& p : flat) p.z() = 0;

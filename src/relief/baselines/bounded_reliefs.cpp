@@ -107,8 +107,8 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
   return heights;
 }
 
-// Sets the heights of free points that belong to no triangle of the sheet. Such a point gets the height
-// of the point that is nearest in depth among the points with unknowns with which it shares a triangle.
+// Sets the heights of free points that belong to no triangle of the sheet. Such a point shares triangles of
+// the surface with points that have unknowns. It gets the height of the one that is nearest in depth.
 void fill_between(const Surface& surface, const std::vector<Index>& unknown, std::vector<double>& heights) {
   const std::vector<std::uint8_t>& is_fixed = surface.boundary.is_boundary;
   std::vector<double> nearest(heights.size(), std::numeric_limits<double>::infinity());

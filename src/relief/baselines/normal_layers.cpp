@@ -23,7 +23,8 @@ Groups<Index> neighbours_of(const Surface& surface) {
   });
 }
 
-// Returns the weight of a neighbour's normal: Tukey's biweight, which is 0 above 40 degrees.
+// Returns the weight of a neighbour's normal: Tukey's biweight, which is 0 if the normals are more than 40
+// degrees apart.
 float likeness(const Vec3f& a, const Vec3f& b) {
   constexpr float largest_sq = .468F;  // square of the distance of unit vectors 40 degrees apart
   const float rest = std::max(0.F, 1 - (a - b).squaredNorm() / largest_sq);
@@ -39,8 +40,8 @@ Eigen::Quaternionf share_of_turn(const Vec3f& from, const Vec3f& to, double shar
 
 std::vector<Vec3f> base_normals(const Surface& surface, double scale) {
   const Groups<Index> neighbours = neighbours_of(surface);
-  // One pass averages the point and six neighbours 1.07 rho away, which has a variance of 0.49 rho^2 along
-  // each axis.
+  // One pass averages the point and six neighbours 1.07 rho away. The weights of this mean have a variance of
+  // 0.49 rho^2 along each axis.
   const double sigma = scale * surface.longer_side() / surface.rho;
   const auto passes = static_cast<int>(std::ceil(sigma * sigma / .49));
   std::vector<Vec3f> normals = surface.normals, last;

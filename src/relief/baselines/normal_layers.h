@@ -25,8 +25,8 @@ struct NormalLayerWeights {
 };
 
 // Returns the normals of the base layer. `scale` is the standard deviation of the smoothing on a smooth
-// surface, as a share of the surface's longer side. Normals that differ by more than 40 degrees are not
-// averaged, nor are normals across a depth jump.
+// surface, as a share of the surface's longer side. Normals are not averaged if they differ by more than 40
+// degrees, or if they are on two sides of a depth jump.
 std::vector<Vec3f> base_normals(const Surface& surface, double scale);
 
 // Returns the normal that keeps the given shares of the base and detail angles.

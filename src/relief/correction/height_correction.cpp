@@ -27,17 +27,18 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // above `limited_coverage`. Nearer to the silhouette, heights rise steeply, so the limits of neighbouring
 // nodes would differ widely. There, ties (springs along the silhouette) hold the field instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
-// The least tension, as a share of the tension inside the silhouette. It continues the field
+// The least tension, as a share of the tension inside the silhouette. With this tension, the field continues
 // smoothly outside the silhouette.
 constexpr float least_tension = .1F;
 // The stiffness of a tie is `tie_per_cell` times the length of silhouette in its cell, in cell widths. The
 // unit of stiffness is the tension across a cell.
 constexpr float tie_per_cell = .8F;
-// Parameters of the forces that keep nearer parts higher than farther parts beside them, the near order
-// (docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer side. If
-// the depths of a pair differ by d, as a share of the depth range, the nearer node should be higher by `largest_step` *
-// tanh(d / `large_difference`) of the relief's height. `order_stiffness` is in units of the tension across a cell of
-// `cell_size`. The forces fade out at the silhouette, where the relief stands off the base anyway.
+// Parameters of the forces that keep nearer parts higher than farther parts beside them (near order,
+// docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
+// side. Let the depths of a pair differ by d, as a share of the depth range. Then the nearer node should be
+// higher by `largest_step` * tanh(d / `large_difference`), as a share of the relief's height.
+// `order_stiffness` is in units of the tension across a cell of `cell_size`. The forces fade out at the
+// silhouette, where the relief stands off the base anyway.
 constexpr std::array<double, 2> pair_distances{.05, .09};
 constexpr double large_difference = .03;
 constexpr float largest_step = .4F, order_stiffness = .02F;
@@ -52,8 +53,8 @@ struct Scale {
   Scale(double longer_side, double rho)
       : side(longer_side), cell(side > 0 ? std::max(cell_size * side, least_cell_size * rho) : 1) {}
 
-  // Returns the square of a length in cells. The length is given as a share of the longer side. Returns 0
-  // for a surface without extent.
+  // Converts a length from a share of the longer side to a number of cells, and returns the square of this
+  // number. Returns 0 for a surface without extent.
   float in_cells_squared(double of_side) const {
     return static_cast<float>(std::pow(of_side * side / cell, 2));
   }
@@ -150,9 +151,9 @@ std::size_t HeightCorrection::Workspace::memory() const {
   return sum;
 }
 
-// Returns limits with a boundary stiffness that falls from 1 at a height share of 1 to 0.3 at 0.825.
-// Strong compression needs all of the height, so the relief may then stand off the base at the silhouette
-// (docs/decisions/height-correction.md).
+// Returns limits whose boundary stiffness depends on the height share. It is 1 at a height share of 1, falls
+// linearly to 0.3 at 0.825, and stays there. Strong compression needs all of the height, so the relief may
+// then stand off the base at the silhouette (docs/decisions/height-correction.md).
 HeightLimits HeightLimits::of(double height, const Shape& shape) {
   constexpr double least = .3, fall = 4;
   return {height, std::max(1 - fall * (1 - height_share(shape)), least), shape.planes};
@@ -215,8 +216,8 @@ std::size_t HeightCorrection::memory() const {
   return lattice_.memory() + sheet_.memory() + bytes(coverage_);
 }
 
-// Returns the range of the differences between the heights of points in the cells around a node and the
-// heights interpolated from the lattice.
+// Compares the heights of the points in the cells around a node with the heights interpolated from the
+// lattice. Returns the range of the differences.
 Lattice::Extent HeightCorrection::rest_around(std::size_t node, const Workspace& w) const {
   Lattice::Extent rest{infinity, -infinity};
   lattice_.each_cell(node, [&](std::size_t cell, std::size_t) {
@@ -247,7 +248,7 @@ void HeightCorrection::fit(std::span<const Real> heights, const HeightLimits& li
   set_limits(height, w);
   solver::Springs springs{static_cast<float>(limits.boundary_stiffness),
                           static_cast<float>(limits.planes) * height};
-  // Wider cells contain fewer pairs per area, so each pair is stiffer.
+  // A lattice with wider cells has fewer pairs per area, so each pair is stiffer.
   const auto wider = static_cast<float>(side_ > 0 ? cell_ / (cell_size * side_) : 1);
   springs.order = {largest_step * height, order_stiffness * wider * wider};
   sheet_.solve(springs, w.sheet);
@@ -263,8 +264,8 @@ void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace&
   if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
   // Equation (9) gives height 0 at the silhouette, but b need not be 0 there, so b is multiplied by w_b. The
-  // few points that stay below the base are raised to it, because otherwise the scaling below would lower
-  // all other heights to make room for them.
+  // few points that stay below the base are raised to it. Otherwise the scaling below would lower all other
+  // heights to make room for them.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
     z[i] = std::max(z[i], Real(0));

@@ -79,8 +79,8 @@ class HeightCorrection {
   };
 
   // Adds b to the heights, clips the few highest and lowest heights softly (SoftClip), and scales the result
-  // to exactly the height of the limits, measured from the base. Does nothing if that height is 0 or all
-  // heights are 0. Instantiated for float and double.
+  // to exactly HeightLimits::height, measured from the base. Does nothing if that height is 0 or all heights
+  // are 0. Instantiated for float and double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 

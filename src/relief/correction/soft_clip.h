@@ -1,4 +1,4 @@
-// Softly clips the few highest and deepest points of a relief, which would otherwise use up much of the
+// Softly clips the few highest and deepest points of a relief. Otherwise they would use up much of the
 // height.
 #pragma once
 

@@ -92,9 +92,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns a value proportional to the area of each point in the view plane: 6 times a third of the area of
-// its triangles inside the relief. Scans have more points per area of the view plane where the surface is
-// steep, so an unweighted mean over points would give slopes that are too steep.
+// Returns a value proportional to the area of each point in the view plane. It is 6 times a third of the area
+// of the point's triangles inside the relief. Where the surface is steep, scans have more points per area of
+// the view plane. So an unweighted mean over points would give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (const Triangle corners : triangles_inside(surface)) {
@@ -154,7 +154,7 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
-    std::fill(own.begin(), own.end(), control.points[c]);  // stays so if the region has no area
+    std::fill(own.begin(), own.end(), control.points[c]);  // these remain if the region has no area
     sample(members[c], share, own);
   }
   return samples;

@@ -16,8 +16,8 @@ struct ControlMesh {
 };
 
 // Returns the mesh of a surface's control points. A triangle of the mesh is inside if triangles inside the
-// surface cover most of its area, so holes and concavities stay outside. Its boundary points are the
-// control points on the surface's boundary, and at least one point in each connected component.
+// surface cover most of its area, so holes and concavities stay outside. The boundary points of the mesh are
+// the control points on the surface's boundary, and at least one point in each connected component.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
 // Returns `per_region` points of each control point's region, region by region. A region contains the surface

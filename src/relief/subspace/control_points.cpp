@@ -16,7 +16,7 @@ class ChosenPoints {
     Vec2 high = points[0];
     low_ = points[0];
     for (const Vec2& p : points) low_ = low_.cwiseMin(p), high = high.cwiseMax(p);
-    constexpr double most_cells = 2048;  // per side
+    constexpr double most_cells = 2048;  // per side of the grid of cells
     side_ = std::max(radius, (high - low_).maxCoeff() / most_cells);
     columns_ = cell((high - low_).x()) + 1;
     rows_ = cell((high - low_).y()) + 1;
@@ -100,8 +100,8 @@ ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const 
   const auto wanted = static_cast<double>(options.count);
   if (points.size() <= options.count || box_area(points) == 0) return best;
 
-  // The number of chosen points is nearly proportional to 1 / radius^2, so the second or third guess is
-  // within 3 %.
+  // The number of chosen points is nearly proportional to 1 / radius^2, so after two or three guesses it is
+  // within 3 % of the wanted number.
   double radius = std::sqrt(box_area(points) / wanted);
   for (int round = 0; round < 6; ++round) {
     best = growth.grow(radius);

@@ -15,9 +15,10 @@ namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-// The splines of ratio and offset (see SubspaceModel) use the same hierarchy of lattices. The cells of the finest
-// lattice are at least 3/4 of ControlPoints::radius wide. The cells of each coarser lattice are twice as wide as those
-// of the next finer one. The ratio is fitted on the two coarsest lattices, the offset on the others.
+// The splines of ratio and offset (see SubspaceModel) use the same hierarchy of lattices. The cells of the
+// finest lattice are at least 3/4 of ControlPoints::radius wide. The cells of each coarser lattice are twice
+// as wide as those of the next finer one. The ratio is fitted on the two coarsest lattices, and the offset is
+// fitted on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {
@@ -27,7 +28,7 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
     options.min = options.min.cwiseMin(p);
     options.max = options.max.cwiseMax(p);
   }
-  constexpr double most_cells = 1024;  // per side
+  constexpr double most_cells = 1024;  // per side of the finest lattice
   options.cell = std::max(.75 * radius, (options.max - options.min).maxCoeff() / most_cells);
   options.levels = 5;
   options.damping = 1e-4;
