@@ -38,8 +38,9 @@ struct Catalogue {
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// Returns the files of a folder that no job has as its scan, sorted, as paths relative to the folder. Leaves
-// out hidden files and the folder of the outputs. Returns nothing if the catalogue is a table.
+// Returns those files of the catalogue's folder that are no job's scan. Their paths are sorted, and relative
+// to that folder. Leaves out hidden files and the folder of the outputs. Returns nothing if the catalogue is
+// a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
 // Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file
