@@ -35,7 +35,7 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
-// Replaces backslashes, by which some programs separate folders, by slashes.
+// Replaces backslashes with slashes. Some programs separate folders by backslashes.
 std::string with_slashes(std::string name) {
   std::ranges::replace(name, '\\', '/');
   return name;
