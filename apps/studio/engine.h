@@ -30,7 +30,8 @@ struct EngineStatus {
   bool can_turn = false;    // whether pictures can show the model from other views
 };
 
-// The engine of a document. Every method may be called from any thread. While one draws, others that draw wait.
+// The engine of a document. Every method may be called from any thread. While one call draws, other calls
+// that draw wait.
 class Engine {
  public:
   // `changed` is for systems without threads. It is called when status() has changed within a call of this object.
@@ -63,12 +64,12 @@ class Engine {
   // no relief yet.
   Result<ModelFacts> facts();
 
-  // Draw as the methods of Drawing do. While another view is being prepared, a picture shows a coarse relief of
-  // the view that the request names or, if it names none, the last frame of the current model. A picture of a
-  // finished piece waits until that piece is made. Any other picture cancels the making of that piece instead
-  // of waiting for it. Fine pictures and pictures of finished pieces are also cancelled by any picture that is
-  // neither. If ornaments have no room, the finished piece is made without them, and the answer says so.
-  // Errors: also those of piece().
+  // Draw as the methods of Drawing do. While another view is being prepared, a picture shows a coarse relief
+  // of the view that the request names or, if it names none, the last frame of the current model. A picture
+  // of a finished piece waits until that piece is made. Any other picture cancels the making of that piece
+  // instead of waiting for it. A picture that is neither fine nor of a finished piece also cancels all fine
+  // pictures and all pictures of finished pieces. If ornaments have no room, the finished piece is made
+  // without them, and the answer says so. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 

@@ -18,7 +18,8 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  // The brush moves in a circle without a stop: an event near the last position paints nothing, so no picture follows.
+  // The brush moves in a circle and never stops, because an event near the last position paints nothing and so causes
+  // no picture.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
   handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };

@@ -70,8 +70,8 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Opens the dialog. Makes the piece as soon as all entries are settled: then the sizes of its files are known, and
-  // each file is written quickly.
+  // Opens the dialog. Makes the piece as soon as all entries are settled. After that, the sizes of the piece's files
+  // are known, and each file is written quickly.
   async open() {
     const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;

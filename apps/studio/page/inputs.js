@@ -107,8 +107,8 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
-// After a dialog, Chromium gives the focus back to a field, but not the selection: Ctrl A would then select nothing. So
-// all text of the field is selected, as after the Tab key.
+// After a dialog, Chromium gives the focus back to a field, but does not select its text again, and Ctrl A would then
+// select nothing. So all text of the field is selected here, as the Tab key does it.
 addEventListener("close", () => {
   const {activeElement: field} = document;
   if (field?.matches(TEXTS)) field.select();

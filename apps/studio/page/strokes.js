@@ -66,7 +66,8 @@ function partsOutside(points, point, radius) {
 }
 
 // Erases the parts of strokes within the radius of a point. A line that is cut in the middle becomes two strokes. A
-// lasso is erased as a whole if its edge is within the radius, a region if its point is.
+// lasso is erased as a whole if a part of its edge is within the radius. A region is erased if its point is within the
+// radius.
 export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   const {area = "line", points: [first]} = stroke, isLine = area === "line";
   const outline = area === "lasso" ? [...stroke.points, first] : stroke.points;

@@ -284,7 +284,7 @@ test("gives up a fine picture when another is asked for", async () => {
   const large = {...PICTURE, width: 1600, height: 1500, fine: true};
   assert.equal((await engine.post("picture", large)).status, 200);
   const fine = engine.post("picture", {...large, light: [1, 0, 1]});
-  await sleep(50); // drawing takes several times longer
+  await sleep(50); // drawing the fine picture takes several times longer than this
   assert.equal((await engine.post("picture", PICTURE)).status, 200);
   const {status, body} = await fine; // not the status of an error, since browsers log errors in their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);

@@ -242,8 +242,8 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
   card.dataset.drawn === "exact");
 
-// Replaces the text of a field key by key, because browsers distinguish typed text from text that a script sets. Waits
-// until the field is enabled: before that, keys would go to the field that had the focus.
+// Replaces the text of a field key by key, because browsers distinguish typed text from text that a script sets. First
+// waits until the field is enabled, because before that the keys would go to the field that had the focus.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys only to the page in front
   await eventually(async () => {
