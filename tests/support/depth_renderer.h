@@ -46,7 +46,8 @@ struct PictureCamera {
   }
 };
 
-// Returns the cloud in the coordinates of the camera's picture, after scaling it to one metre.
+// Returns the cloud in the coordinates of the camera's picture, after scaling it so that its width or its
+// height, whichever is larger, is one metre.
 inline Cloud in_picture(Cloud cloud, const PictureCamera& camera) {
   const Box box = bounds(cloud);
   const double metres = 1 / std::max(box.size().x(), box.size().y());
