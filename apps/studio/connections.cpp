@@ -49,8 +49,8 @@ bool has_whole_head(const Connection& connection) {
   return connection.received.find("\r\n\r\n") != std::string::npos;
 }
 
-// Stops sending on a socket, but does not close it yet: if the other side is still sending, closing would
-// discard the answer before it is read.
+// Stops sending on a socket, but does not close it yet. If the other side is still sending, closing the
+// socket would discard the answer before it is read.
 Connection ending(int socket) {
   ::shutdown(socket, SHUT_WR);
   return {socket, {}, Clock::now() + longest_farewell, true};

@@ -20,8 +20,9 @@ namespace relievo::app::studio {
 struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
-  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // bounding box of the relief, in units of the scan
-  Vec2 origin = Vec2::Zero();  // lower left corner of the box, in the scan's coordinates turned into the view
+  // The size and lower left corner of the relief's box, relative to Surface::centre, in units of the scan.
+  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();
+  Vec2 origin = Vec2::Zero();  // the same corner in the coordinates of the scan, turned into the view
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
   bool has_colours = false;            // whether the scan's points have colours
@@ -157,9 +158,9 @@ class Drawing {
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
-  // Returns heights above the ground, in mm, along a line in the front view. The heights are those of the
-  // model if the request asks for it, of the relief if it is on a rectangular plate, and otherwise of the
-  // piece that picture() draws. Errors: those of picture().
+  // Returns heights above the ground, in mm, along a line in the front view. If the request asks for the
+  // model, they are the heights of the model. If the piece is a relief on a rectangular plate, they are those
+  // of the relief. Otherwise they are those of the piece that picture() draws. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

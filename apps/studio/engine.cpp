@@ -279,8 +279,8 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
 
 // Makes the finished piece that a picture is to show. Meanwhile other pictures can be drawn.
 Result<void> Engine::finish(PictureRequest& request) {
-  // While another model is being prepared, no piece is made: the page requests the piece of the new model
-  // later.
+  // While another model is being prepared, no piece is made, because the page will request the piece of the
+  // new model.
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());

@@ -1,5 +1,5 @@
-// Measures two durations in Chromium at 1280 x 800: from an event of the mouse to the picture that shows its effect,
-// and from the choice of a file to the first relief and to the relief of all points, in milliseconds.
+// Measures three durations in Chromium at 1280 x 800, in milliseconds: from an event of the mouse to the picture that
+// shows its effect; from the choice of a file to the first relief; and from that choice to the relief of all points.
 //   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
 // With relievo.html, the page in one file, the engine inside that file is measured. Each movement is a drag of 4
 // seconds with 60 events a second, sent without waiting for pictures. If several events arrive while one picture is

@@ -114,9 +114,9 @@ addEventListener("close", () => {
   if (field?.matches(TEXTS)) field.select();
 }, true);
 
-// Calls the function of each key that is pressed. `commands` are keys with Ctrl or Cmd, `always` are others; `keys`
-// work only while isReady(). Calls hold(isHeld) when B is pressed and released. While a dialog is open, keys do
-// nothing; while the user types, keys without Ctrl do nothing.
+// Calls the function of each key that is pressed. `commands` has the functions of keys with Ctrl or Cmd. The functions
+// in `always` and `keys` are for other keys; those in `keys` are called only while isReady(). Calls hold(isHeld) when B
+// is pressed and released. While a dialog is open, keys do nothing; while the user types, keys without Ctrl do nothing.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;

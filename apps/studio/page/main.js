@@ -96,7 +96,8 @@ let modelFacts = null; // facts about the shown model
 let facts = null; // facts about the newest picture
 let isKept = !about.notice;
 
-// Sets the tone curve of the document, and returns the document's curve: the former one if the drag was cancelled.
+// Sets the tone curve of the document. Returns the curve that the document then has, which is the former curve if the
+// drag was cancelled.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -291,7 +292,7 @@ async function arrived(status) {
   depthPanel.tell(modelFacts.depth_image).catch(failed);
   lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  // With takesSeveral there is no panel: a new scene file could not refer to the models' files.
+  // With takesSeveral there is no panel, because a new scene file could not refer to the models' files.
   scenePanel.show(engine.takesSeveral ? [] : modelFacts.models);
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;

@@ -52,7 +52,8 @@ export class Modes {
 
   toggleTable = () => this.setTable(!isPressed("#light-table"));
 
-  // Starts or ends a comparison: the left side of a divider shows the model or the relief of the snapshot `rival`.
+  // Starts or ends a comparison. During a comparison, the left side of a divider shows the relief of the snapshot
+  // `rival`, or the model if `rival` is null.
   setComparing(isComparing, rival = null) {
     if (isComparing === isPressed("#compare") && rival === this.rival) return;
     this.rival = rival;

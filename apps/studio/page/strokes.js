@@ -36,8 +36,8 @@ export function simplified(points, tolerance) {
   return points.length > 1 ? [first, last] : [first];
 }
 
-// Returns the two positions, as shares of the way from a to b, between which the line through a and b is within the
-// radius of a point. Returns null if no part of the segment from a to b is within the radius.
+// Finds the part of the line through a and b that is within the radius of a point. Returns the two ends of this part,
+// as shares of the way from a to b. Returns null if no part of the segment from a to b is within the radius.
 function within(a, b, point, radius) {
   const line = sub(b, a), from = sub(a, point);
   const square = dot(line, line), half = dot(from, line), rest = dot(from, from) - radius * radius;

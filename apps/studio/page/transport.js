@@ -44,8 +44,8 @@ export class Transport {
   addressOf = (file) => file;
 
   // A browser opens at most six connections to a server for all its tabs together, and a stream of events uses one of
-  // them. So only the tab that has the lock opens the stream, and passes the events on to the others. When that tab is
-  // closed, another one gets the lock.
+  // them. So only the tab that has the lock opens the stream, and passes the events on to the other tabs. When that tab
+  // is closed, another one gets the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());

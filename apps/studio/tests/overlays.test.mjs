@@ -30,7 +30,8 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await button("Dismiss").click();
 });
 
-// Each measured line ends near the label of the relief's height or width, so that its own label could cover that one.
+// Each measured line ends near the label of the relief's height or width, so that the line's own label could cover that
+// label.
 test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);

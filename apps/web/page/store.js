@@ -53,7 +53,7 @@ export class BrowserStore {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
     const whole = ended(transaction);
-    whole.catch(() => {}); // if next() throws, nobody awaits `whole`: avoids an unhandled rejection
+    whole.catch(() => {}); // avoids an unhandled rejection if next() throws, because nobody then awaits `whole`
     const now = await done(store.get(key));
     let changed;
     try {

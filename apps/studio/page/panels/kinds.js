@@ -49,7 +49,7 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work of a document's step. The material does not matter: every thick plate with round corners
+// Returns the kind of work of a document's step. The material does not matter, so every thick plate with round corners
 // counts as a carving. A die that was made from a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;

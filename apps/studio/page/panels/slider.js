@@ -41,7 +41,8 @@ export class Slider {
     this.value = this.otherwise;
     this.rest = new Pause(onEnd, GESTURE_END_MS);
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
-    // The field does not have the type "number": browsers would read "1/8in" as 18, and could not read "2,5".
+    // The field does not have the type "number", because browsers would then read "1/8in" as 18, and could not read
+    // "2,5".
     this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
     this.name = make("span", {class: "name", title: this.help}, this.label);
     this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});

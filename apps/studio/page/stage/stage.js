@@ -27,10 +27,10 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // while the picture keeps changing, its width and height in pixels are multiplied by this factor
-    // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` that of the last
-    // state that was drawn. The other three are numbers of the last state for which a picture was drawn or has failed:
-    // `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which shows the
-    // finished piece if one is wanted.
+    // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` is the number of the
+    // last state that was drawn. The other three are numbers of the last state for which a picture was drawn or has
+    // failed: `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which
+    // shows the finished piece if one is wanted.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // resting: the callbacks of rest()
     this.pause = new Pause(() => this.pump());
