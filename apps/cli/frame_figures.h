@@ -13,7 +13,7 @@
 
 namespace relievo::app::cli {
 
-// The durations of one part of a frame, one for each measured frame.
+// The durations of one part of the work for a frame. There is one duration for each measured frame.
 struct Series {
   std::vector<double> ms = {};
 

@@ -22,7 +22,7 @@ std::unexpected<Error> broken(std::string_view name, std::string expected) {
   return input_error(std::string(name), {}, std::move(expected));
 }
 
-// Returns the message for a file of the archive that libzip cannot unpack. `code` is libzip's error code.
+// Returns the message for an archived file that libzip cannot unpack. `code` is libzip's error code.
 std::string not_unpacked(const zip_stat_t& file, int code) {
   if (file.encryption_method != ZIP_EM_NONE)
     return "expected a file without a password, found an encrypted one; unpack the archive first";

@@ -36,7 +36,7 @@ std::optional<std::uint64_t> file_size(const std::string& path);
 // Returns the bytes of the text, as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);
 
-// Returns a view of the bytes as text, which is valid as long as the bytes are.
+// Returns a view of the bytes as text. The view is valid as long as the bytes are.
 inline std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

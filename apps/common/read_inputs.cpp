@@ -38,7 +38,8 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
-// Returns what the values of a depth image mean by default: heights in formats for terrain, depths in all others.
+// Returns what the values of a depth image mean by default: heights in formats for terrain, and depths in all
+// other formats.
 DepthValues usual_values(const DepthImage& image) {
   const bool has_heights = image.pixel_size.x() > 0 || image.format.starts_with("table of heights");
   return has_heights ? DepthValues::height : DepthValues::depth;

@@ -41,7 +41,7 @@ class TemporaryFile {
   TemporaryName* name_ = nullptr;  // null while the file has no temporary name
 };
 
-// Removes all unfinished files in a folder that killed processes or a power failure left there.
+// Removes from a folder all unfinished files that killed processes or a power failure left there.
 void remove_abandoned_files(const std::string& folder);
 
 // Removes the named temporary files of this process. After this call no thread can make or keep a temporary

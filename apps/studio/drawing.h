@@ -154,7 +154,7 @@ class Drawing {
   // Keeps the finished piece, which was made with these options, until the next call.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);
 
-  // Returns the greatest height, in mm, of a relief that the options allow; see LiveModel::highest_mm().
+  // Returns the greatest height of the relief, in mm, that the options allow; see LiveModel::highest_mm().
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 

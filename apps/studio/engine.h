@@ -23,7 +23,7 @@ struct EngineStatus {
   double fraction = 0;
   std::optional<Error> error;  // error of the last opening or change of the view
   ScanSource input;            // the shown scan
-  OptionValues view;           // the options for preparing the scan that were requested last
+  OptionValues view;           // the last requested options for preparing the scan
   std::string making_stage;    // stage of the finished piece that is being made; empty if none is
   double making_fraction = 0;
   std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first model
@@ -73,7 +73,7 @@ class Engine {
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
-  // Returns the greatest height, in mm, of a relief that the options and their draft angle allow. With a
+  // Returns the greatest height of the relief, in mm, that the options and their draft angle allow. With a
   // draft angle this takes as long as making a piece, unless the height is already known. Any picture that is
   // not of a finished piece cancels this call. Errors: those of Drawing::reachable_height() and
   // highest_with_draft(); kind cancelled.

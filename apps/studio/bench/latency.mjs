@@ -143,7 +143,7 @@ function listen(type) {
   });
 }
 
-// Returns for each event the time to the first picture that shows its effect, sorted.
+// Returns the sorted times from each event to the first picture that shows the event's effect.
 function latencies(events, pictures) {
   const times = events.map((event) => pictures.find(({shows}) => shows >= event)?.at - event);
   return times.filter(Number.isFinite).sort((a, b) => a - b);

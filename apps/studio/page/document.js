@@ -112,7 +112,7 @@ export class Document {
     return true;
   }
 
-  // Writes values that the engine found into the current step. Adds no step.
+  // Changes the current step to values that the engine has found. Adds no step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }

@@ -85,8 +85,8 @@ export class OpenDocument {
     if (status && this.id === id) this.take(status);
   }
 
-  // Requests the document's view. First waits until the engine has opened the document, as it would refuse an earlier
-  // request.
+  // Requests the document's view. First waits until the engine has opened the document, because the engine would refuse
+  // an earlier request.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);

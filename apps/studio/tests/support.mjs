@@ -290,7 +290,7 @@ function without(missing) {
 }
 
 // Sets the time limit PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS. With a
-// delay, a test that does not wait for the values that it checks fails, as it would on a busy machine.
+// delay, a test fails if it does not wait for the values that it checks. Such a test would also fail on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed

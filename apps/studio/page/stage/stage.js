@@ -14,7 +14,8 @@ import {Turning} from "./turning.js";
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const FINE_AFTER_MS = 160; // time without changes until the fine picture is requested
 const FINISHED_AFTER_MS = 500; // time without changes until the finished piece is requested
-const MOST_PIXELS = 7.9e6; // of a picture; just below the engine's limit. A screen of 5,120 x 2,880 has more
+// The largest number of pixels of a picture. It is just below the engine's limit; a screen of 5,120 x 2,880 has more.
+const MOST_PIXELS = 7.9e6;
 
 export class Stage {
   // Calls on.picture(facts, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
