@@ -36,7 +36,7 @@ struct PictureCamera {
     return is_pinhole ? std::exp(-z / focal_px()) : distance_m - z / metre_px();
   }
 
-  // Returns the normal in the picture of a surface that has the normal n at the point p.
+  // Returns the normal, in the picture's coordinates, of a surface that has the normal n at the point p.
   Vec3f map_normal(const Vec3& p, const Vec3& n) const {
     if (!is_pinhole) return n.cast<float>();
     const double depth = distance_m - p.z();
