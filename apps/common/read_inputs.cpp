@@ -45,8 +45,8 @@ DepthValues usual_values(const DepthImage& image) {
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
-// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured picture
-// and to usual_values() for all others.
+// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured
+// picture and to usual_values() for all other pictures.
 Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
                                DepthOptions& options) {
   const auto read = [&](bool is_luminance_wanted) {

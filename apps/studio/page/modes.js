@@ -68,7 +68,8 @@ export class Modes {
     this.compared();
   }
 
-  // Shows the model beside the relief, coloured by its attention, or ends the comparison.
+  // If `isShown` is true, shows the model, coloured by its attention, beside the relief. Otherwise ends this
+  // comparison.
   showAttention(isShown) {
     this.stage.comparing.set({hasAttention: isShown});
     this.setComparing(isShown);

@@ -401,7 +401,7 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await soon.equal(() => page.locator("#scene li").count(), 1);
-  await engine.stop(); // the engine stores the scans of a scene as long as the scene
+  await engine.stop(); // the engine stores the scans of a scene as long as it stores the scene
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);

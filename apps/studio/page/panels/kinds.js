@@ -125,7 +125,8 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind of work after the waiting entries. Tells the user if its plate cannot keep the current size.
+  // Chooses a kind of work, as soon as the waiting entries are taken. Tells the user if the plate of this kind cannot
+  // keep the current size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {

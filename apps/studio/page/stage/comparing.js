@@ -23,7 +23,8 @@ export class Comparing {
   }
 
   // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding). With hasAttention the
-  // model is coloured by its attention. If `rival`, the settings of a snapshot, is not null, they replace the model.
+  // model is coloured by its attention. If `rival` is not null, it has the settings of a snapshot, and the relief with
+  // these settings takes the place of the model.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;
