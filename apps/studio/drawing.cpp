@@ -87,7 +87,7 @@ bool is_plain(const ReliefOptions& options) {
 }
 
 ReliefOptions coarse(ReliefOptions options) {
-  constexpr double samples = 180;  // along the longer side: smooth enough while a slider moves
+  constexpr double samples = 180;  // along the longer side; so few are enough while a slider moves
   options.resolution_mm = std::max(options.effective_width_mm() / samples, options.resolution_mm.value_or(0));
   options.tolerance_mm = options.draft_deg = options.triangles = std::nullopt;
   options.finish = Finish::full;

@@ -28,7 +28,7 @@ struct ModelFacts {
   bool has_colours = false;            // whether the scan's points have colours
   bool can_be_lit = false;             // whether slopes can be chosen for one light
   std::vector<Remark> remarks;         // each text is a full sentence
-  std::vector<std::size_t> histogram;  // counts of sqrt(|k|) from 0 to 1, over the points' curvatures k
+  std::vector<std::size_t> histogram;  // element i: number of points with i <= size * sqrt(|k|) < i + 1
 };
 
 // The fractions of a slope, from 0 to 1, that a relief keeps at different curvatures k. Element i of a vector
@@ -77,7 +77,7 @@ struct PictureAnswer {
   bool is_size_exact = false;           // whether the exported piece has exactly this size
   std::optional<double> most_width_mm;  // largest width_mm with which the relief fits the plate
   std::optional<std::array<Vec2, 2>>
-      relief_mm;  // two opposite corners of the relief's box, from the piece's centre; empty if it is bent
+      relief_mm;  // lower left and upper right corner of the relief, from the piece's centre; empty if bent
 
   // The share of the front's area that the milling tool can reach, and the greatest depth of material that it leaves.
   struct Reach {

@@ -71,7 +71,7 @@ struct Engine::State {
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
-  Session session;  // declared last: its thread uses the members above
+  Session session;  // declared last, because its thread uses the members above
 
   // Returns the description of the next preparation: the scan that was requested last, in the view of the options.
   Preparation preparation_of(const ReliefOptions& options) {

@@ -24,7 +24,7 @@ struct EngineStatus {
   std::optional<Error> error;  // error of the last opening or change of the view
   ScanSource input;            // the shown scan
   OptionValues view;           // the last requested options for preparing the scan
-  std::string making_stage;    // stage of the finished piece that is being made; empty if none is
+  std::string making_stage;    // stage of the making of the finished piece; empty if none is being made
   double making_fraction = 0;
   std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first model
   bool can_turn = false;    // whether pictures can show the model from other views

@@ -44,7 +44,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
-    this.changedAt = 0; // time of the last change in ms since 1970; the state with the later time replaces others
+    this.changedAt = 0; // time of the last change in ms since 1970; a stored state with a later time replaces this one
   }
 
   stamp() {

@@ -114,7 +114,7 @@ export class Stage {
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
-      else if (isLast) this.changedAt = performance.now(); // another tab cancelled the picture: try again after a pause
+      else if (isLast) this.changedAt = performance.now(); // another tab cancelled the picture, so try again later
     } catch (error) {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
