@@ -21,7 +21,7 @@ struct PictureCamera {
   bool is_pinhole = false;
 
   double metre_px() const { return side / 1.25; }
-  double focal_px() const { return 1.1 * side; }  // the library assumes it for inverse depths
+  double focal_px() const { return 1.1 * side; }  // the library assumes this length for inverse depths
 
   DepthCamera as_depth_camera() const { return {focal_px(), focal_px(), (side - 1) / 2., (side - 1) / 2.}; }
 
