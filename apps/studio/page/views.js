@@ -50,7 +50,7 @@ export class ViewDialog {
     this.dialog.returnValue = "cancel";
     $("#suggestion").textContent = "";
     this.dialog.showModal();
-    this.look(directionsOf(options) ?? SIDES.front); // the view may not be chosen yet
+    this.look(directionsOf(options) ?? SIDES.front); // perhaps no view is chosen yet
     this.drawSides().catch(this.onFailed);
   }
 

@@ -2,7 +2,7 @@
 import {EngineError} from "../../studio/page/engine.js";
 import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
-const MOST_RECENT = 24; // most documents to store, each with its scan
+const MOST_RECENT = 24; // largest number of documents to store, each with its scan
 
 const done = (request) => new Promise((resolve, reject) => {
   request.onsuccess = () => resolve(request.result);
