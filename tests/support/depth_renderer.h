@@ -102,7 +102,7 @@ inline Image<double> heights_in_picture(const Cloud& cloud, int side) {
 struct DepthStorage {
   std::string name;
   DepthValues kind = DepthValues::depth;
-  double step = 0;                      // 1 for integers, 0 for fractions
+  double step = 0;                      // step between stored values: 1 for integers, 0 for fractions
   std::function<double(double)> value;  // returns the stored value of a depth
   bool is_pinhole = false;              // if so, metric depths come with the focal length
 };
