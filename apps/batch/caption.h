@@ -16,9 +16,9 @@ struct CaptionPlace {
   int left = 0, top = 0, width = 0;
 };
 
-// Draws one line of text into a picture of 3 channels, centred in the area, which must lie within the
-// picture. A text that is too long is cut, and ends with two dots. Bytes that are not printable ASCII are
-// drawn as question marks.
+// Draws one line of text into a picture of 3 channels. The text is centred in the area `place`, which must
+// lie within the picture. A text that is too long is cut, and ends with two dots. Bytes that are not
+// printable ASCII are drawn as question marks.
 void write_caption(Image8& image, const CaptionPlace& place, std::string_view text,
                    const std::array<std::uint8_t, 3>& colour);
 

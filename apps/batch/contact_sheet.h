@@ -17,8 +17,8 @@ inline constexpr std::size_t tiles_per_sheet = 144;
 // Decodes a PNG to a picture of 3 channels. Returns an empty picture if the bytes cannot be read.
 Image8 read_png(std::span<const std::byte> bytes);
 
-// Returns a tile of `side` x `side` pixels with the front view of a preview, which is its left half (see
-// render_preview()). The view is scaled down by averaging to fit, and centred.
+// Returns a tile of `side` x `side` pixels that shows the front view of a preview. This view is the left half
+// of the preview (see render_preview()). It is scaled down until it fits, by averaging pixels, and centred.
 Image8 tile_of_preview(const Image8& preview, int side);
 
 // A relief on a contact sheet.

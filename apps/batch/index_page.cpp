@@ -11,8 +11,8 @@ namespace relievo::app::batch {
 namespace {
 
 // The browser lays out a card only when it scrolls into view, so that a page of 20,000 cards opens at once. A
-// card shows the left half of the preview, the front view. While the pointer is on the card, it shows the
-// right half, the oblique view.
+// card shows the front view, which is the left half of the preview. While the pointer is on the card, the
+// card shows the oblique view, which is the right half.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; --paper: #ececea; --card: #fafaf8; --ink: #26262a; --soft: #6d6d72; --bad: #a3392c; }
 @media (prefers-color-scheme: dark) {

@@ -30,16 +30,18 @@ struct Catalogue {
 
 // Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table (see table.h), row
 // by row. In a folder that contains clouds or meshes, pictures count as textures and are left out. A table
-// has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a column
-// for each option for which is_option() returns true. For an empty cell, the option's value in
+// has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a
+// column for each option for which is_option() returns true. For an empty cell, the option's value in
 // Catalogue::common applies. A job without a name is named after its file; -2 is appended if another job has
-// that name. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, and if
-// a name in the table is not unique or leads out of the folder; kind option if the table has any other column.
+// that name. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, if a
+// name in the table is not unique, or if a name leads out of the folder; kind option if the table has any
+// other column.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
-// Returns the files of a folder that no job has as its scan, sorted, as paths relative to the folder. Leaves
-// out hidden files and the folder of the outputs. Returns nothing if the catalogue is a table.
+// Returns those files of the catalogue's folder that are no job's scan. Their paths are sorted, and relative
+// to that folder. Leaves out hidden files and the folder of the outputs. Returns nothing if the catalogue is
+// a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
 // Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file

@@ -18,9 +18,9 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// These figures are upper bounds of measured values (docs/batch.md). Even for a small scan, the blur of the
-// normals may need 2^24 cells of 12 bytes, and the solid about half a million samples. The bytes per point of
-// a cloud include reading, preparing and sampling.
+// These figures are upper bounds of measured values (docs/batch.md). `least_mb` is so large because even for
+// a small scan the blur of the normals may need 2^24 cells of 12 bytes, and the solid may need about half a
+// million samples. `bytes_per_point` covers reading, preparing and sampling a cloud.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
                  bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
 
@@ -57,8 +57,8 @@ double number_in(const std::string& path) {
   return file >> number ? number : -1;
 }
 
-// Returns the memory, in MB, that this process may still allocate before its control group reaches its limit;
-// infinite without a limit.
+// Returns the memory, in MB, that this process may still allocate before its control group reaches the
+// group's limit. Returns infinity if the group has no limit.
 double left_in_control_group_mb() {
   std::ifstream groups("/proc/self/cgroup");
   double left = std::numeric_limits<double>::infinity();

@@ -9,8 +9,9 @@ namespace relievo::app::batch {
 // figures of docs/batch.md. Opens each file and reads its first 64 kB.
 double memory_need_mb(const Job& job);
 
-// Returns the memory, in MB, that this process may still allocate: the available memory of the machine or, if that
-// is less, the unused part of its control group's limit. Containers and Slurm set such limits.
+// Returns the memory, in MB, that this process may still allocate. This is the available memory of the
+// machine, or the unused part of the limit of the process's control group, whichever is less. Containers and
+// Slurm set such limits.
 double available_memory_mb();
 
 }  // namespace relievo::app::batch

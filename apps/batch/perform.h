@@ -55,8 +55,9 @@ struct JobResult {
   Record record;
 };
 
-// Makes the outputs of a job unless they are up to date, that is, unless this version made them from the same contents
-// and options and their sizes have not changed since. A failed job is repeated only if it may succeed now.
+// Makes the outputs of a job unless they are up to date. They are up to date if this version made them from
+// the same contents and options, and if their sizes have not changed since then. A failed job is repeated
+// only if it may succeed now.
 JobResult perform(const PlannedJob& planned, const RunSettings& settings, int threads);
 
 // Returns the arguments with which `make` does the job.

@@ -11,9 +11,9 @@
 
 namespace relievo::app::batch {
 
-// The processes of the running jobs. They are forks of the calling process that load no other program, so a job
-// starts faster than a shell command. They end when the calling process ends or crashes. The calling process
-// must not have started a thread, and must have no other child processes.
+// The processes of the running jobs. They are forks of the calling process, and load no other program. So a
+// job starts faster than a shell command. They end when the calling process ends or crashes. The calling
+// process must not have started a thread, and must have no other child processes.
 class Processes {
  public:
   explicit Processes(const RunSettings& settings) : settings_(settings) {}

@@ -123,7 +123,8 @@ Result<Journal> Journal::open(const std::string& outputs) {
 
 Result<void> Journal::append(const Record& record) const {
   // One call writes the whole line, so that the lines of several programs never mix. After a power failure
-  // the last line of the journal may be unfinished; a line break then ends it first.
+  // the last line of the journal may be unfinished. Then the text begins with a line break, which ends that
+  // line.
   const std::string line = cat(ends_in_a_line(file_) ? "" : "\n",
                                to_json(record).dump(-1, ' ', false, Json::error_handler_t::replace), "\n");
   if (::write(file_.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return {};

@@ -14,7 +14,8 @@ namespace {
 // Estimates may be wrong, and the system needs memory to cache files. So a fifth of the memory stays free.
 constexpr double share_of_available = .8;
 
-// Returns the number of processors that this process may use, which a workload manager such as Slurm may limit.
+// Returns the number of processors that this process may use. A workload manager such as Slurm may limit this
+// number.
 int usable_processors() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;

@@ -64,7 +64,7 @@ batch::Options given_options(const CLI::App& command) {
   return options;
 }
 
-// The part number `index`, counted from 1, if the jobs are divided into `count` parts.
+// One of the `count` parts into which the jobs are divided. The first part has the index 1.
 struct Shard {
   std::size_t index = 1, count = 1;
 };
@@ -178,9 +178,9 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// Returns the job's record if the job was done after list() printed its line; nothing if the record or the first
-// output is missing. Reason: if a Dask worker (python/relievo/batch.py) dies, another worker gets the same job,
-// although the program that the dead worker started may have done it, or may still be doing it.
+// Returns the job's record if the job was done after list() printed its line; nothing if the record or the
+// first output is missing. This is needed because Dask (python/relievo/batch.py) gives the job of a dead
+// worker to another worker. The program that the dead worker started may have done the job meanwhile.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::RunSettings& settings) {
   const std::string output = batch::output_name(job, settings.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(settings.outputs) / output, ignored)) return std::nullopt;

@@ -32,8 +32,8 @@ std::vector<std::string> words_of(const std::string& command, const std::string&
   return {option->choices.begin(), option->choices.end()};
 }
 
-// Returns whether a flag takes a path. `value` is the placeholder in the flag's help: for a path it has an
-// ending ("P.png") or is one of the words listed here.
+// Returns whether a flag takes a path. `value` is the placeholder in the flag's help. The placeholder of a
+// path has an ending ("P.png") or is one of the words listed here.
 bool is_path(const std::string& value) {
   const std::size_t dot = value.find('.');
   return value == "INPUT" || value == "OUT" || value == "DIR" || value == "FX,FY,CX,CY" ||

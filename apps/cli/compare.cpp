@@ -117,8 +117,9 @@ struct Comparer {
   }
 };
 
-// Returns the message for a wrong height; empty if the height is right. In this command heights are fractions of
-// the width; in the others they are lengths. CLI11's own message would not mention that.
+// Returns the message for a wrong height; empty if the height is right. In this command heights are fractions
+// of the width; in the other commands they are lengths. CLI11's own message would not mention this
+// difference.
 std::string height_error(const std::string& text) {
   if (CLI::Range(1e-4, 1.0)(text).empty()) return {};
   return cat("expected fractions of the width, 0.0001 to 1, found ", text);

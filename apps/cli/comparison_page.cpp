@@ -7,8 +7,9 @@
 namespace relievo::app::cli {
 namespace {
 
-// The ground of the pictures is transparent, so the background is a neutral grey. Negative margins cancel the
-// padding inside the pictures, so that plates and text align. The model stays visible while the user scrolls.
+// The ground of the pictures is transparent, so the page has a neutral grey behind them. Negative margins
+// cancel the padding inside the pictures, so that plates and text align. The model stays visible while the
+// user scrolls.
 constexpr std::string_view style = R"(
 :root { color-scheme: light dark; }
 body { margin: 2rem; font: 15px/1.45 system-ui, sans-serif; background: #e4e4e4; color: #222; }

@@ -19,7 +19,7 @@ std::string escaped(std::string_view text, std::string_view characters) {
   return out;
 }
 
-// Returns the first clause of a help text, which is short enough to stand beside the flag.
+// Returns the first clause of a help text. This clause is short enough to stand beside the flag.
 std::string brief(const std::string& help) {
   return help.substr(0, std::min({help.find("; "), help.find(" ["), help.find(": "), help.find(", ")}));
 }
@@ -51,7 +51,7 @@ std::string bash_names(const CommandInfo& command, const FlagInfo& flag) {
   return flag.short_name.empty() ? name : cat(name, "|", command.name, ":", flag.short_name);
 }
 
-// Returns the branches of the script's first `case`, which complete the value of a flag.
+// Returns the branches of the script's first `case`. These branches complete the value of a flag.
 std::string bash_values(const CommandInfo& command) {
   std::string text, numbers;
   for (const FlagInfo& flag : command.flags) {
@@ -67,7 +67,7 @@ std::string bash_values(const CommandInfo& command) {
   return numbers.empty() ? text : cat(text, "    ", numbers, ") return ;;\n");
 }
 
-// Returns the script's branch for one command, which completes its flags and arguments.
+// Returns the script's branch that completes the flags and arguments of one command.
 std::string bash_flags(const CommandInfo& command) {
   std::string flags, argument = "paths=1";
   for (const FlagInfo& flag : command.flags) {

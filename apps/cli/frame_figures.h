@@ -13,7 +13,7 @@
 
 namespace relievo::app::cli {
 
-// The durations of one part of a frame, one for each measured frame.
+// The durations of one part of the work for a frame. There is one duration for each measured frame.
 struct Series {
   std::vector<double> ms = {};
 
@@ -36,14 +36,15 @@ struct FrameRun {
   bool is_ahead = false;   // whether FrameMaker::make_ahead() is used
 };
 
-// Makes frames as if a user dragged the saturation (with a locked height) or the detail, and measures them.
+// Makes frames as if a user dragged a slider, and measures them. The slider is that of the saturation if the
+// height is locked, otherwise that of the detail.
 FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
 
 // Returns the memory of a model and its frame maker, in bytes per visible point.
 double bytes_per_point(const ReliefModel& model);
 
-// A row of the paper's Table 1: times in milliseconds on six cores. t1, t2 and t3 overlap: the paper computes
-// three frames at the same time.
+// A row of the paper's Table 1: times in milliseconds on six cores. The times t1, t2 and t3 overlap, because
+// the paper's program computes three frames at the same time.
 struct PaperRow {
   const char* model;
   int visible_points, control_points, t1, t2, t3;
@@ -86,7 +87,7 @@ struct ViewSeries {
 };
 
 struct ViewFigures {
-  double first_ms = 0;         // time from the points in memory to the first frame of the first view
+  double first_ms = 0;         // time from when the points are in memory to the first view's first frame
   double first_turned_ms = 0;  // time from the first view to the first frame of a turned relief
   ViewSeries turned;           // turned reliefs (see the glossary), with one frame each
   ViewSeries prepared;         // fully prepared views, with one frame each

@@ -11,7 +11,7 @@
 namespace relievo::app::cli {
 
 void restart_with_huge_pages(char** argv) {
-  if (::getauxval(AT_SECURE) != 0) return;  // setuid programs lose the variable: endless restarts
+  if (::getauxval(AT_SECURE) != 0) return;  // a setuid program loses the variable, and would restart for ever
   constexpr const char *name = "GLIBC_TUNABLES", *request = "glibc.malloc.hugetlb=1";
   if (const char* const given = std::getenv(name)) {
     if (given == std::string_view(request)) ::unsetenv(name);  // so that child processes do not inherit it

@@ -1,4 +1,4 @@
-// Defines the options of `make`. `batch` has the same ones: as flags for all scans, and as columns of its
+// Defines the options of `make`. `batch` has the same options, as flags for all scans and as columns of its
 // table.
 #pragma once
 

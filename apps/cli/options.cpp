@@ -66,7 +66,8 @@ Result<void> print(const OptionsArguments& arguments, const CLI::App& program) {
 
 }  // namespace
 
-// Adds the command `options`, which the help does not show: it makes documents, pages and packages.
+// Adds the command `options`. The help does not show this command, because it is for making documents, pages
+// and packages.
 void add_options(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<OptionsArguments>();
   CLI::App& command = *program.add_subcommand("options", "Print the table of make's options")->group("");

@@ -33,7 +33,7 @@ void end_process() {
   std::to_chars(megabytes, megabytes + sizeof megabytes - 1, kilobytes / 1000 + 1);
   const std::array line = {part("relievo: expected more free memory than the "), part(megabytes),
                            part(" MB that are in use; fewer points and a coarser resolution need less\n")};
-  // One call writes the whole line: other processes of a batch may print at the same time.
+  // One call writes the whole line, because other processes of a batch may print at the same time.
   (void)!::writev(STDERR_FILENO, line.data(), line.size());
   ::_exit(1);
 }

@@ -22,7 +22,7 @@ std::unexpected<Error> broken(std::string_view name, std::string expected) {
   return input_error(std::string(name), {}, std::move(expected));
 }
 
-// Returns the message for a file of the archive that libzip cannot unpack. `code` is libzip's error code.
+// Returns the message for an archived file that libzip cannot unpack. `code` is libzip's error code.
 std::string not_unpacked(const zip_stat_t& file, int code) {
   if (file.encryption_method != ZIP_EM_NONE)
     return "expected a file without a password, found an encrypted one; unpack the archive first";
@@ -35,7 +35,7 @@ std::string not_unpacked(const zip_stat_t& file, int code) {
   return cat("expected a whole file, found ", found, "; get the archive anew");
 }
 
-// Replaces backslashes, by which some programs separate folders, by slashes.
+// Replaces backslashes with slashes. Some programs separate folders by backslashes.
 std::string with_slashes(std::string name) {
   std::ranges::replace(name, '\\', '/');
   return name;

@@ -40,15 +40,17 @@ class Archive {
 bool is_archive(std::span<const std::byte> bytes);
 
 // Returns the name of the only model among the files of an archive. A model is a file with an ending that a
-// reader supports. Pictures are not models, and a text file counts as a model only if it is the only file. Error
-// messages call the archive `archive`. Errors: kind input if the archive has no model or several.
+// reader supports. Pictures are not models, and a text file counts as a model only if it is the only file.
+// Error messages call the archive `archive`. Errors: kind input if the archive has no model or several
+// models.
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
 
 // Returns whether all files of an archive are NumPy arrays, as in an NPZ file. Hidden files do not count.
 bool has_arrays_alone(const std::vector<std::string>& names);
 
-// Returns the name of the array to read from an archive of NumPy (NPZ): the array with a usual name for points,
-// otherwise the one with a usual name for depths, otherwise the only array. Errors: kind input if there is none.
+// Returns the name of the array to read from an archive of NumPy (NPZ): the array with a usual name for
+// points, otherwise the one with a usual name for depths, otherwise the only array. Errors: kind input if
+// there is no such array.
 Result<std::string> find_array(const std::vector<std::string>& names, std::string_view archive);
 
 }  // namespace relievo::app

@@ -49,9 +49,9 @@ struct ExportOrder {
 // make` writes. Errors: those of height_map_file().
 Result<ExportedFile> export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
 
-// Returns the picture of a relief. A lithophane is drawn with a lamp behind it if the material is plaster,
-// and in the given material otherwise. If the relief is on the inside of a wrap, the front view shows the
-// relief unrolled. The oblique view cuts open a wrap of more than half a turn.
+// Returns the picture of a relief. If the material is plaster, a lithophane is drawn with a lamp behind it;
+// otherwise it is drawn in the given material. If the relief is on the inside of a wrap, the front view shows
+// the relief unrolled. The oblique view cuts open a wrap of more than half a turn.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
 }  // namespace relievo::app

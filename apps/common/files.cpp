@@ -26,7 +26,8 @@ std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
   return input_error(path, {}, cat("expected a file, found ", kind_of(mode)));
 }
 
-// Returns the largest size of a file to read: half of the memory. The rest is needed to make a relief of it.
+// Returns the largest size of a file that may be read: half of the memory. The other half is needed to make a
+// relief of the file.
 std::size_t most_bytes() {
 #if defined(__wasi__)
   return std::size_t{1} << 31;

@@ -13,8 +13,9 @@
 
 namespace relievo::app {
 
-// Returns the bytes of a file. Errors: kind input, with the reason why it cannot be read; also for folders,
-// devices, files larger than half of the memory and, unless `is_pipe_fine`, pipes.
+// Returns the bytes of a file. Errors: kind input, with the reason, if the file cannot be read, if it is
+// larger than half of the memory, and if the path is that of a folder or a device. A pipe is an error, too,
+// unless `is_pipe_fine`.
 Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine = false);
 
 // Returns whether a file, a folder or a device has that path.
@@ -35,7 +36,7 @@ std::optional<std::uint64_t> file_size(const std::string& path);
 // Returns the bytes of the text, as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);
 
-// Returns a view of the bytes as text, which is valid as long as the bytes are.
+// Returns a view of the bytes as text. The view is valid as long as the bytes are.
 inline std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }

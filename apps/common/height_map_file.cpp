@@ -13,7 +13,7 @@ constexpr int most_px = 16384;  // largest width and height of a map, as for the
 constexpr std::array<Choice<bool>, 2> high_choices{{{"white", false}, {"black", true}}};
 constexpr std::array<Choice<int>, 3> bits_choices{{{"8", 8}, {"16", 16}, {"32", 32}}};
 
-constexpr double mm_per_ten_inches = 254;  // a whole number: 254 dpi are exactly 0.1 mm
+constexpr double mm_per_ten_inches = 254;  // a whole number, so that 254 dpi are exactly 0.1 mm
 
 using Scale = std::vector<std::pair<std::string, std::string>>;
 
@@ -41,7 +41,7 @@ Result<void> take_choice(const char* flag, const std::string& text, const std::a
   return {};
 }
 
-// Returns the scale of the map. The keys are those under which the files store it.
+// Returns the scale of the map, under the keys that the files use for it.
 Scale scale_of(const HeightMap& map, const MadeRelief& made, LengthUnit unit) {
   Scale scale{{"mm_per_pixel", cat(map.mm_per_pixel)}, {"mm_per_grey", cat(map.mm_per_grey)}};
   if (unit == LengthUnit::inch) {

@@ -39,7 +39,7 @@ inline constexpr std::array<HeightMapFlag, 6> height_map_flags{
       &HeightMapTexts::high}}};
 
 struct HeightMapOrder : HeightMapOptions {
-  int bits = 0;          // bits per pixel: 8, 16, or 32 for millimetres; 0: 16 in a PNG, 32 in a TIFF
+  int bits = 0;          // bits per pixel: 8 or 16 for greys, 32 for mm; 0: 16 in a PNG, 32 in a TIFF
   bool is_tiff = false;  // false: PNG
   LengthUnit unit = LengthUnit::mm;
 
@@ -61,7 +61,7 @@ struct HeightMapFile {
 
 // Returns the height map as a file that also contains its scale. The relief of a wrap is written unrolled,
 // for machines that rotate the workpiece. Errors: kind option if the pixels are too small for the size of the
-// solid, or if no part of it lies above the zero level.
+// solid, or if no part of the solid lies above the zero level.
 Result<HeightMapFile> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 // Returns the facts of a HeightMapFile as a line for users.

@@ -88,8 +88,8 @@ struct FinishedRelief {
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report. All its lengths are in millimetres. `unit` is the unit of the relief's files, which the
-  // report names.
+  // Returns the report. All its lengths are in millimetres. The report also names `unit`, the unit of the
+  // relief's files.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 

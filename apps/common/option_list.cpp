@@ -32,8 +32,8 @@ Json default_of(const OptionRow& option) {
   return std::visit([](const auto& value) { return Json(value); }, option.initial);
 }
 
-// Returns the defaults that replace the usual default of a number in special cases: the default for a form, under
-// the form's name, and the default if a diameter is given, under "diameter".
+// Returns an object with the defaults that replace the usual default of a number in special cases. Its keys
+// are names of forms, and "diameter" for the case that a diameter is given.
 Json other_defaults(const OptionRow& option) {
   Json others = Json::object();
   const ReliefOptions plain;

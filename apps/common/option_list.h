@@ -14,11 +14,11 @@ std::string default_text(const OptionRow& option);
 // Returns the help text, followed by the range of a number or by the words that the option accepts.
 std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and stage, one per option. Numbers also have min and max, and
-// enumerations have choices. `default` is the option's default or, where it depends on the method, an object that
-// maps methods to values; it is missing if there is no default. `default_with` has the defaults that replace it:
-// under the name of a form for that form, and under "diameter" if a diameter is given. `in_studio` and `is_stated`
-// are those of OptionRow.
+// Returns a list of objects with name, unit, help and stage, one per option. Numbers also have min and max,
+// and enumerations have choices. `default` is the option's default. If the default depends on the method,
+// `default` is an object that maps methods to values; if there is no default, it is missing. `default_with`
+// is an object with the defaults that replace `default` in special cases. Its keys are names of forms, and
+// "diameter" for the case that a diameter is given. `in_studio` and `is_stated` are those of OptionRow.
 nlohmann::json option_list();
 
 // Returns an option's name in the form of a function parameter, which includes the unit: "height_mm".

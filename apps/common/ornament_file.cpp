@@ -33,8 +33,9 @@ Result<void> set(T& to, Result<T> from) {
   return {};
 }
 
-// A cached font, which exists as long as any options refer to it. Options that name the same file must share one font
-// object: options are equal only if their font objects are the same, and successive pictures must have equal options.
+// A cached font, which exists as long as any options refer to it. Options that name the same file must share
+// one font object, because successive pictures must have equal options, and options are equal only if their
+// font objects are the same.
 struct KnownFont {
   std::int64_t changed_ns;
   std::weak_ptr<const FontFile> font;

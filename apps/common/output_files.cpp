@@ -37,7 +37,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
     std::error_code failed;
     const std::filesystem::path absolute = std::filesystem::absolute(path, failed),
                                 canonical = std::filesystem::weakly_canonical(absolute, failed);
-    if (failed == std::errc::not_enough_memory) throw std::bad_alloc();  // like operator new
+    if (failed == std::errc::not_enough_memory) throw std::bad_alloc();  // as operator new does
     return failed ? absolute : canonical;
   };
   return full(a) == full(b);

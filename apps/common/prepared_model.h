@@ -32,8 +32,8 @@ class PreparedModel {
   // Makes a frame with the order's options. Errors: those of options_of(); kind option for a method without frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
-  // Draws a frame of this model in that material. Errors: kind input for a frame with another number of points,
-  // kind option for wrong options or an unknown material.
+  // Draws a frame of this model in that material. Errors: kind input for a frame whose number of points is
+  // not that of the model; kind option for wrong options or an unknown material.
   Result<Picture> picture(const FrameInMm& shown, RenderOptions options, std::string_view material);
 
  private:

@@ -62,7 +62,7 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  // Several options set the height; their names begin with "height". If the order has one of them, those of the
+  // Several options set the height; their names begin with "height". If `given` has one of them, those of the
   // project are removed.
   const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
   if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method

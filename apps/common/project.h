@@ -1,4 +1,4 @@
-// Reads and writes project files. A project is an unfinished relief in JSON: the studio saves and opens
+// Reads and writes project files. A project is an unfinished relief in JSON. The studio saves and opens
 // projects, and `make` makes reliefs from them.
 #pragma once
 

@@ -15,7 +15,7 @@
 
 namespace relievo::app {
 
-// The bytes of a scan, or of the height map of a base, that is part of a project file.
+// A file within a project file: a scan, or the height map of a base.
 struct PackedFile {
   std::string name;  // without folders
   std::vector<std::byte> bytes;

@@ -38,14 +38,15 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
-// Returns what the values of a depth image mean by default: heights in formats for terrain, depths in all others.
+// Returns what the values of a depth image mean by default: heights in formats for terrain, and depths in all
+// other formats.
 DepthValues usual_values(const DepthImage& image) {
   const bool has_heights = image.pixel_size.x() > 0 || image.format.starts_with("table of heights");
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
-// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured picture
-// and to usual_values() for all others.
+// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured
+// picture and to usual_values() for all other pictures.
 Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
                                DepthOptions& options) {
   const auto read = [&](bool is_luminance_wanted) {

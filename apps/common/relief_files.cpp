@@ -11,8 +11,8 @@
 namespace relievo::app {
 namespace {
 
-// Returns the solid as a file. Conversion to inches rounds the coordinates again, which tilts needles, so the
-// draft angle is enforced a second time.
+// Returns the solid as a file. Conversion to inches rounds the coordinates again, which can tilt very narrow
+// triangles. So the draft angle is enforced a second time.
 Result<std::vector<std::byte>> solid_file(const ReliefFiles& files, const Solid& solid,
                                           std::optional<double> draft_deg) {
   const auto write = find_solid_format(ending_of(files.solid))->write_solid;
@@ -78,7 +78,7 @@ OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief,
                        const nlohmann::json& height_map) {
   nlohmann::json report = relief.report(files.unit);
   if (!height_map.is_null()) report["height_map"] = height_map;
-  // JSON must be UTF-8, but names of files need not be: their other bytes are replaced.
+  // JSON must be UTF-8, but names of files need not be UTF-8. So their other bytes are replaced.
   const auto replace = nlohmann::json::error_handler_t::replace;
   return {files.report, bytes_of(report.dump(2, ' ', false, replace) + "\n")};
 }

@@ -44,7 +44,7 @@ std::atomic<TemporaryName*> temporary_names = nullptr;
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<bool> is_ending = false;       // the process is removing its temporary files and will end
-std::atomic<int> threads_with_change = 0;  // threads that are making or renaming a temporary file
+std::atomic<int> threads_with_change = 0;  // number of threads that make or rename a temporary file
 static_assert(decltype(is_ending)::is_always_lock_free && decltype(threads_with_change)::is_always_lock_free);
 
 // A thread must have a FileChange while it makes or renames a temporary file. Otherwise it could make a file
@@ -129,8 +129,9 @@ void mark_unfinished(const Descriptor& file) {
   ::fsetxattr(file.number(), mark, "", 0, 0);
 }
 
-// Removes the unfinished files in `folder` whose names start with `begin` and which no process has open. A file with
-// its final name stays: if its process was killed just after it had renamed the file, the file still has the mark.
+// Removes the unfinished files in `folder` whose names start with `begin` and which no process has open. The
+// test of the name is needed because a file with its final name must stay. Such a file still has the mark if
+// its process was killed just after renaming it.
 void remove_abandoned(const std::string& folder, const std::string& begin) {
   std::error_code failed;
   for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
@@ -172,7 +173,9 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange change;  // no allocation from here on: the handler of a failed one waits for FileChange
+    // Nothing below may allocate memory, because the handler of a failed allocation waits for the end of
+    // every FileChange.
+    const FileChange change;
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;

@@ -41,11 +41,11 @@ class TemporaryFile {
   TemporaryName* name_ = nullptr;  // null while the file has no temporary name
 };
 
-// Removes all unfinished files in a folder that killed processes or a power failure left there.
+// Removes from a folder all unfinished files that killed processes or a power failure left there.
 void remove_abandoned_files(const std::string& folder);
 
 // Removes the named temporary files of this process. After this call no thread can make or keep a temporary
-// file. A signal handler may call it before the process ends.
+// file. A signal handler may call this function before the process ends.
 void remove_temporary_files();
 
 // Installs signal handlers: Ctrl-C and other signals that end the program then remove its temporary files

@@ -194,8 +194,8 @@ Result<Answer> Actions::recent(const Json& json) {
   return answer_of(Json{{"recent", recent_list(after)}});
 }
 
-// Returns the list of Store::recent(), preceded by the documents that are being opened, which are stored only after
-// their scan was read. The caller has locked `storing_`.
+// Returns the list of Store::recent(). If `after` is empty, the list begins with the documents that are being
+// opened, because these are stored only after their scan was read. The caller has locked `storing_`.
 Json Actions::recent_list(const std::string& after) {
   Json list = Json::array();
   const auto opened = opened_.with([](const auto& all) { return all; });

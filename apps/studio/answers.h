@@ -21,9 +21,9 @@ struct Answer {
 
 Answer answer_of(const nlohmann::json& json, int status = 200);
 
-// Returns the error with its HTTP status: 400 or 422 for a wrong request, 409 if no relief can be made or none is
-// ready, 500 if the disk failed, 507 if the memory ran out. A cancelled request gets the status of success 202, since
-// browsers report other statuses as errors in their console.
+// Returns the error with its HTTP status: 400 or 422 for a wrong request, 409 if no relief can be made or
+// none is ready, 500 if the disk failed, 507 if the memory ran out. A cancelled request gets 202, which is a
+// status of success, because browsers report statuses of failure as errors in their console.
 Answer answer_of(const Error& error);
 
 // Returns the pixels as the body, and the facts about them in the header X-Relievo.

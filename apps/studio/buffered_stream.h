@@ -10,8 +10,9 @@
 
 namespace relievo::app::studio {
 
-// A stream that first returns the bytes that were received earlier, and then reads from a socket, which it does not
-// own. A read returns 0 at the end of the connection, and -1 after an error or after the time limit.
+// A stream that first returns the bytes that were received earlier, and then reads from a socket. It does not
+// own the socket. A read returns 0 at the end of the connection, and -1 after an error or after the time
+// limit.
 class BufferedStream : public httplib::Stream {
  public:
   BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}

@@ -25,12 +25,12 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// Half of 1024, the usual limit of open files of a program.
+// The largest number of connections: half of 1024, the usual limit of a program's open files.
 constexpr std::size_t most_connections = 512;
-// The number of threads that answer requests at the same time. Each page keeps one request for events open
-// all the time, and slow uploads take long, so a few threads are not enough for several pages.
+// The least and the largest number of threads that answer requests. Each page keeps one request for events
+// open all the time, and slow uploads take long. So a few threads are not enough for several pages.
 constexpr std::size_t fewest_answering = 4, most_answering = 96;
-constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
+constexpr std::size_t most_head = 16U << 10;  // bytes; browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // time from the first byte of a head to its last
 constexpr auto longest_rest = 30s;            // time between two requests on a connection
 constexpr auto longest_farewell = 2s;         // time in which a refused sender can read the answer
@@ -49,8 +49,8 @@ bool has_whole_head(const Connection& connection) {
   return connection.received.find("\r\n\r\n") != std::string::npos;
 }
 
-// Stops sending on a socket, but does not close it yet: if the other side is still sending, closing would
-// discard the answer before it is read.
+// Stops sending on a socket, but does not close it yet. If the other side is still sending, closing the
+// socket would discard the answer before it is read.
 Connection ending(int socket) {
   ::shutdown(socket, SHUT_WR);
   return {socket, {}, Clock::now() + longest_farewell, true};

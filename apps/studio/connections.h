@@ -16,8 +16,8 @@ class Connections {
   // Answers one request. Returns whether the connection may send another request.
   using Answer = std::function<bool(BufferedStream&)>;
 
-  // Starts a few threads; later starts more when all are busy. Throws std::system_error if the system refuses
-  // the first few.
+  // Starts a few threads, and later starts more when all are busy. Throws std::system_error if the system
+  // refuses one of the first threads.
   explicit Connections(Answer answer);
   ~Connections();  // calls stop()
 

@@ -48,8 +48,8 @@ ModelFacts facts_of(const ReliefModel& model, std::size_t outliers, std::vector<
 CurveSamples sample_curve(const Shape& shape, double delta) {
   const bool is_layered = shape.style == Style::layered;
   const Compression saturation = saturation_alone(shape.compression);
-  // In the layered style, this factor times the weight for `saturation` is the share of a slope that the
-  // saturation or the tone curve keeps.
+  // In the layered style, the saturation or the tone curve keeps a share of each slope. This share is `scale`
+  // times the weight for `saturation`, but at most 1.
   const double scale = is_layered ? saturation_scale(shape.compression) : 1;
   CurveSamples samples;
   for (std::size_t i = 0; i < CurveSamples::size; ++i) {
@@ -60,8 +60,8 @@ CurveSamples sample_curve(const Shape& shape, double delta) {
   return samples;
 }
 
-// Rounds a height down to the decimals that the page shows for files. Rounding up could exceed the largest
-// height.
+// Rounds a height down to the decimals that the page shows for files. A height that is rounded up could
+// exceed the largest possible height.
 double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
@@ -70,8 +70,8 @@ bool is_flat(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
 }
 
-// Returns whether FrameRenderer can draw the piece while only its heights change. It leaves out ornaments and what
-// takes long to compute: the draft angle, the simplification, and the reach of a tool.
+// Returns whether FrameRenderer can draw the piece while only its heights change. FrameRenderer leaves out
+// ornaments, and what takes long to compute: the draft angle, the simplification, and the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
   return (is_flat(options) || options.outline != Outline::none) && options.form != Form::lithophane &&
          !options.mm_per_value;
@@ -87,7 +87,7 @@ bool is_plain(const ReliefOptions& options) {
 }
 
 ReliefOptions coarse(ReliefOptions options) {
-  constexpr double samples = 180;  // along the longer side: smooth enough while a slider moves
+  constexpr double samples = 180;  // along the longer side; so few are enough while a slider moves
   options.resolution_mm = std::max(options.effective_width_mm() / samples, options.resolution_mm.value_or(0));
   options.tolerance_mm = options.draft_deg = options.triangles = std::nullopt;
   options.finish = Finish::full;
@@ -191,7 +191,7 @@ void Drawing::take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& 
   std::shared_ptr<const ToolReach> reach;
   if (made->report.reach) reach = {made, &*made->report.reach};
   finished_.reset();
-  const bool is_flat = options.wrap.kind == WrapKind::none;  // the tool's reach was measured before bending
+  const bool is_flat = options.wrap.kind == WrapKind::none;  // the reach was measured before bending
   finished_.emplace(options, solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr),
                     relief_height_mm(*made, options));
 }
@@ -213,7 +213,8 @@ Result<void> Drawing::draw_frame(const PictureRequest& request, const RenderOpti
                                  const LiveFrame& made, PictureAnswer& answer) {
   const Vec2 half = facts_.size * render.mm_per_unit / 2;
   if (!is_plain(request.options)) {
-    // The draft angle may limit the height, and a height that is out of reach is rounded down, so the frame is scaled.
+    // The piece may be lower than the frame, because the draft angle may limit its height, and because a
+    // height that is out of reach is rounded down. So the frame is scaled to the height of the piece.
     LiveFrame limited = made;
     const double unstretched = made.frame->height * made.mm_per_unit;
     if (unstretched > 0) limited.stretch = answer.height_mm / unstretched;
@@ -285,7 +286,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
     answer.is_finished = true;
     return answer;
   }
-  // The height of a piece is taken from the frame, so the frame's height must then be exact.
+  // A piece gets its height from the frame. So if a piece is drawn, the frame's height must be exact.
   const LiveFrame made = this->frame(request, request.is_at_rest || !is_frame_on_plate(request.options));
   const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;

@@ -20,18 +20,19 @@ namespace relievo::app::studio {
 struct ModelFacts {
   ScanReport scan = {};
   std::size_t points = 0, triangles = 0, hull = 0;
-  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // bounding box of the relief, in units of the scan
-  Vec2 origin = Vec2::Zero();  // lower left corner of the box, in the scan's coordinates turned into the view
+  // The size and lower left corner of the relief's box, relative to Surface::centre, in units of the scan.
+  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();
+  Vec2 origin = Vec2::Zero();  // the same corner in the coordinates of the scan, turned into the view
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
   bool has_colours = false;            // whether the scan's points have colours
   bool can_be_lit = false;             // whether slopes can be chosen for one light
   std::vector<Remark> remarks;         // each text is a full sentence
-  std::vector<std::size_t> histogram;  // counts of sqrt(|k|) from 0 to 1, over the points' curvatures k
+  std::vector<std::size_t> histogram;  // element i: number of points with i <= size * sqrt(|k|) < i + 1
 };
 
-// The fraction of a slope that a relief keeps, from 0 to 1, at curvatures k with sqrt(|k|) = i / (size - 1).
-// The page draws these samples as the tone curve.
+// The fractions of a slope, from 0 to 1, that a relief keeps at different curvatures k. Element i of a vector
+// is the fraction at sqrt(|k|) = i / (size - 1). The page draws these samples as the tone curve.
 struct CurveSamples {
   static constexpr std::size_t size = 81;
 
@@ -46,7 +47,7 @@ struct PictureRequest {
   std::optional<View> turned;   // the view while the user turns the model; empty: the prepared view
   std::optional<double> u;      // strength of the compression; empty if the height is given
   bool is_original = false;     // draw the model itself instead of its relief
-  bool is_at_rest = false;      // the user pauses: the height is exact, and a newer request cancels this one
+  bool is_at_rest = false;      // the user pauses: draw the exact height; a newer request cancels this one
   bool is_finished = false;     // draw the piece exactly as it is exported
   bool has_attention = false;   // colour the model itself by its attention, see attention()
   bool is_drawn_apart = false;  // return a frame without drawing it, see PictureAnswer::undrawn
@@ -76,7 +77,7 @@ struct PictureAnswer {
   bool is_size_exact = false;           // whether the exported piece has exactly this size
   std::optional<double> most_width_mm;  // largest width_mm with which the relief fits the plate
   std::optional<std::array<Vec2, 2>>
-      relief_mm;  // two opposite corners of the relief's box, from the piece's centre; empty if it is bent
+      relief_mm;  // lower left and upper right corner of the relief, from the piece's centre; empty if bent
 
   // The share of the front's area that the milling tool can reach, and the greatest depth of material that it leaves.
   struct Reach {
@@ -100,7 +101,7 @@ struct DrawnPiece {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ToolReach> reach;  // the reach of the tool in the options; null without a tool
   SolidRenderer renderer;
-  // See relief_height_mm(). For a coarse piece, only set with the option mm-per-value.
+  // See relief_height_mm(). A coarse piece has it only with the option mm-per-value.
   std::optional<double> height_mm = {};
 };
 
@@ -110,7 +111,8 @@ struct PieceHeight {
   bool is_met = true;
 };
 
-// If ornaments caused the error, removes them from the request and stores the error in it. Returns whether it did.
+// If ornaments caused the error, removes them from the request, stores the error in the request, and returns
+// true. Otherwise returns false.
 bool leave_out_ornaments(PictureRequest& request, const Error& error);
 
 // Reads the files of the request's ornaments. If one cannot be read, removes the ornaments from the request and
@@ -130,12 +132,16 @@ class Drawing {
   // While the drawing is frozen, it shows the last frame, if there is one, instead of the requested frame.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws the model itself if the request asks for it, otherwise the relief or its piece.
-  // Draws the finished piece if take() has received it, and if the plate is not a plain rectangle or the request asks
-  // for the piece. Only the finished piece has ornaments, and the marks of a draft angle, a simplification and a tool.
-  // Otherwise draws a frame on its plate. The height of the frame is exact at rest, and within 3 % of the requested
-  // height while a slider moves. Lithophanes, depths in mm, and reliefs without ground that are bent have no frames:
-  // draws a coarse piece of them, which has fewer samples. Errors: those of make_relief().
+  // Draws one of the following:
+  // - the model itself, if the request asks for it;
+  // - the finished piece, if take() has received it. A plain piece (see PictureAnswer::is_plain) is drawn in
+  //   this way only if the request asks for the finished piece. Only finished pieces have ornaments, and the
+  //   effects of a draft angle, a simplification and a tool;
+  // - a frame on its plate. Its height is exact at rest, and within 3 % of the requested height while a
+  //   slider moves;
+  // - a coarse piece, which has fewer samples than the finished one, where frames are impossible: for
+  //   lithophanes, for depths in mm, and for bent reliefs without ground.
+  // Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the options of the piece that the picture of this request needs; nothing if take() has received
@@ -148,13 +154,13 @@ class Drawing {
   // Keeps the finished piece, which was made with these options, until the next call.
   void take(std::shared_ptr<const MadeRelief> made, const ReliefOptions& options);
 
-  // Returns the greatest height, in mm, of a relief that the options allow; see LiveModel::highest_mm().
+  // Returns the greatest height of the relief, in mm, that the options allow; see LiveModel::highest_mm().
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
-  // Returns heights above the ground, in mm, along a line in the front view. The heights are those of the
-  // model if the request asks for it, of the relief if it is on a rectangular plate, and otherwise of the
-  // piece that picture() draws. Errors: those of picture().
+  // Returns heights above the ground, in mm, along a line in the front view. If the request asks for the
+  // model, they are the heights of the model. If the piece is a relief on a rectangular plate, they are those
+  // of the relief. Otherwise they are those of the piece that picture() draws. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

@@ -71,7 +71,7 @@ struct Engine::State {
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
-  Session session;  // declared last: its thread uses the members above
+  Session session;  // declared last, because its thread uses the members above
 
   // Returns the description of the next preparation: the scan that was requested last, in the view of the options.
   Preparation preparation_of(const ReliefOptions& options) {
@@ -139,8 +139,8 @@ struct Engine::State {
   }
 
   // Draws the model in a view that is not prepared yet. The turned relief is made once per view, and is then
-  // used until the view is prepared, even if options change. While it is made, other pictures can be drawn.
-  // A request for another view cancels it.
+  // used until the view is prepared, even if options change. While the turned relief is made, other pictures
+  // can be drawn, and a request for another view cancels the making.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
     std::uint64_t model = 0;  // number of the model that was shown when the turned relief was begun
     for (std::optional<ShownModel> relief;;) {
@@ -279,8 +279,8 @@ Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
 
 // Makes the finished piece that a picture is to show. Meanwhile other pictures can be drawn.
 Result<void> Engine::finish(PictureRequest& request) {
-  // While another model is being prepared, no piece is made: the page requests the piece of the new model
-  // later.
+  // While another model is being prepared, no piece is made, because the page will request the piece of the
+  // new model.
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
@@ -383,7 +383,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->control_points() > 0))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  // The options of a picture have the width that fits the plate; those of an export may have none. After
+  // The options of a picture have the width that fits the plate; those of an export may have no width. After
   // with_width() both describe the same piece, which is then made only once.
   RELIEVO_TRY(const ReliefOptions sized, with_width(model->surface(), options));
   return state_->maker.piece(use, shown, sized);

@@ -23,14 +23,15 @@ struct EngineStatus {
   double fraction = 0;
   std::optional<Error> error;  // error of the last opening or change of the view
   ScanSource input;            // the shown scan
-  OptionValues view;           // the options for preparing the scan that were requested last
-  std::string making_stage;    // stage of the finished piece that is being made; empty if none is
+  OptionValues view;           // the last requested options for preparing the scan
+  std::string making_stage;    // stage of the making of the finished piece; empty if none is being made
   double making_fraction = 0;
   std::uint64_t model = 0;  // number of the shown model, unique among all engines; 0 before the first model
   bool can_turn = false;    // whether pictures can show the model from other views
 };
 
-// The engine of a document. Every method may be called from any thread. While one draws, others that draw wait.
+// The engine of a document. Every method may be called from any thread. While one call draws, other calls
+// that draw wait.
 class Engine {
  public:
   // `changed` is for systems without threads. It is called when status() has changed within a call of this object.
@@ -63,16 +64,16 @@ class Engine {
   // no relief yet.
   Result<ModelFacts> facts();
 
-  // Draw as the methods of Drawing do. While another view is being prepared, a picture shows a coarse relief of
-  // the view that the request names or, if it names none, the last frame of the current model. A picture of a
-  // finished piece waits until that piece is made. Any other picture cancels the making of that piece instead
-  // of waiting for it. Fine pictures and pictures of finished pieces are also cancelled by any picture that is
-  // neither. If ornaments have no room, the finished piece is made without them, and the answer says so.
-  // Errors: also those of piece().
+  // Draw as the methods of Drawing do. While another view is being prepared, a picture shows a coarse relief
+  // of the view that the request names or, if it names none, the last frame of the current model. A picture
+  // of a finished piece waits until that piece is made. Any other picture cancels the making of that piece
+  // instead of waiting for it. A picture that is neither fine nor of a finished piece also cancels all fine
+  // pictures and all pictures of finished pieces. If ornaments have no room, the finished piece is made
+  // without them, and the answer says so. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
-  // Returns the greatest height, in mm, of a relief that the options and their draft angle allow. With a
+  // Returns the greatest height of the relief, in mm, that the options and their draft angle allow. With a
   // draft angle this takes as long as making a piece, unless the height is already known. Any picture that is
   // not of a finished piece cancels this call. Errors: those of Drawing::reachable_height() and
   // highest_with_draft(); kind cancelled.

@@ -27,8 +27,8 @@ void answer(httplib::Response& response, const std::exception_ptr& exception);
 // body is read.
 bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
 
-// Reads a body in blocks and passes each to `take`. Returns whether the whole body arrived and `take`
-// accepted it; otherwise refuses the request.
+// Reads a body in blocks and passes each to `take`. If the body does not arrive completely, or `take` does
+// not accept it, refuses the request and returns false.
 bool read_body(const httplib::ContentReader& read, httplib::Response& response, std::size_t most_bytes,
                const std::function<Result<void>(std::string_view)>& take);
 

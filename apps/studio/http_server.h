@@ -13,7 +13,7 @@ class HttpServer : public httplib::Server {
  public:
   HttpServer();
 
-  // Opens the port; any free port for 0. Returns the opened port; nothing if the port is taken.
+  // Opens the port, or any free port if `port` is 0. Returns the opened port; nothing if the port is taken.
   std::optional<int> bind(int port);
 
   // Answers requests until stop() is called.

@@ -8,7 +8,8 @@
 namespace relievo::app::studio {
 namespace {
 
-// A position that is further than this from every point is beside the model; in sampling distances.
+// The largest distance of a position from the nearest point of the model, in sampling distances. A position
+// that is further away is beside the model.
 constexpr double most_distance = 3;
 
 Vec3 nearest_point(const Surface& surface, const Vec2& place) {

@@ -93,8 +93,7 @@ void OpenDocuments::work() {
   forget_idle();
 }
 
-// Destroys the engines of closed documents that are idle. The destructor of a busy engine would wait for its
-// work.
+// Destroys the idle engines of closed documents. The destructor of a busy engine would wait for its work.
 void OpenDocuments::forget_idle() {
   std::erase_if(closing_, [](const std::shared_ptr<Engine>& engine) { return engine->is_idle(); });
 }

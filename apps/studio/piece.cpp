@@ -10,7 +10,8 @@
 namespace relievo::app::studio {
 namespace {
 
-constexpr std::size_t most_limits = 16;  // kept draft limits, since users often return to earlier options
+// The number of draft limits to keep. They are kept because users often return to earlier options.
+constexpr std::size_t most_limits = 16;
 
 ReliefOptions without_height(ReliefOptions options) {
   options.height_mm.reset();

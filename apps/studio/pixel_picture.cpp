@@ -25,7 +25,7 @@ Colour colour_of(PixelUse use) {
   return std::ranges::find(left_out, use, &UseInfo::use)->colour;
 }
 
-// Maps depths of points to greys: the nearest point is white, the farthest one dark.
+// Maps depths of points to greys: the nearest point is white, and the farthest point is dark.
 class GreyOfDepth {
  public:
   explicit GreyOfDepth(const Cloud& cloud) : cloud_(cloud) {

@@ -107,7 +107,7 @@ Json to_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Rounds to thousandths, which are a quarter of a pixel in the page's curve. This keeps the HTTP header
+// Rounds to thousandths. A thousandth is a quarter of a pixel in the page's curve. This keeps the HTTP header
 // short.
 Json rounded(const std::vector<double>& samples) {
   Json json = Json::array();

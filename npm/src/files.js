@@ -27,7 +27,7 @@ export function asBytes(source) {
 }
 
 // Returns the imports of WASI for these files. `memory` returns the engine's memory. `log` gets the text that the
-// engine writes to its standard streams, which it does only when it aborts.
+// engine writes to its standard streams. The engine writes to them only when it aborts.
 export function wasi(files, memory, log) {
   const open = new Map(); // {file, position} by descriptor
   const view = () => new DataView(memory());

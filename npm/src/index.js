@@ -41,7 +41,7 @@ function watchedCall(engine, name, request, { progress, signal } = {}) {
   }
 }
 
-// Returns an engine that has the files of `source`, and the request for the options.
+// Returns two things: an engine that has the files of `source`, and the request for the options.
 async function engineWith(source, options = {}) {
   const engine = await newEngine();
   const files = filesOf(source, options.name);

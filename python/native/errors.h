@@ -18,8 +18,8 @@ namespace py = pybind11;
 std::string path_of(py::handle path);
 py::str text_of(std::string_view text);
 
-// Raises OutOfMemory for an error of kind memory, and relievo.Error for others. If the error names an option,
-// the exception names its keyword.
+// Raises OutOfMemory for an error of kind memory, and relievo.Error for other errors. If the error names an
+// option, the exception names its keyword.
 [[noreturn]] void raise(const Error& error);
 
 // Raises relievo.Error of kind input for the array called `name`. `place` is the position of the fault in the

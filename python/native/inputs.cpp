@@ -136,8 +136,8 @@ std::vector<Source> sources_of(const py::list& list) {
 }  // namespace
 
 void take_sources(const py::list& list, app::MakeOrder& order) {
-  // The sources are shared and not copied: copies would change Python's reference counts in a thread without
-  // Python's lock.
+  // The sources are shared and not copied, because copies would change Python's reference counts in a thread
+  // without Python's lock.
   const auto sources = std::make_shared<const std::vector<Source>>(sources_of(list));
   std::vector<std::string> names;
   for (const Source& source : *sources) {

@@ -13,7 +13,7 @@ py::bytes bytes_of(const std::vector<T>& values) {
   return py::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-// Raises unless a pickle was written by this version of the package.
+// Raises if `is_right` is false, because this version of the package cannot have written such a pickle.
 void check(bool is_right) {
   if (!is_right) throw py::value_error("expected a pickle of a relief by this version of relievo");
 }

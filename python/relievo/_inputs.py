@@ -111,7 +111,7 @@ def _first(source: Any, *names: str) -> Any:
         value = getattr(source, name, None)
         if value is not None and not callable(value) and len(value) > 0:
             return value
-    # An empty attribute is returned, too: the later check of the points reports it.
+    # An empty attribute is returned, too, because the later check of the points reports it.
     return next((getattr(source, n) for n in names if n in ("points", "vertices") and hasattr(source, n)), None)
 
 

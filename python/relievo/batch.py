@@ -83,7 +83,7 @@ def run(
     lines = _call([program, "batch", source, "-o", output, "--list", *flags]).splitlines()
     with _client(scheduler, workers) as client:
         records = list(_work(client, program, ["-o", output, *_output_flags(flags)], lines, watch))
-    # Ignores the exit code, which is 1 if a scan failed: the records contain the failures.
+    # Ignores the exit code, which is 1 if a scan failed, because the records contain the failures.
     subprocess.run([program, "batch", source, "-o", output, "--pages", "--quiet", *flags], stderr=subprocess.DEVNULL,
                    check=False)
     return Run(records, os.path.join(output, "index.html"))

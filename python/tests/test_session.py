@@ -18,7 +18,7 @@ def resident_mb():
 
 
 def least_growth_mb(parts, run):
-    """Calls run() `parts` times, and returns the least growth of memory in a call: a leak would occur in every call."""
+    """Calls run() `parts` times, and returns the least growth of memory in a call, as a leak occurs in every call."""
     growths = []
     for _ in range(parts):
         before = resident_mb()

@@ -24,8 +24,9 @@ inline std::string output_of(const std::string& command) {
   return output;
 }
 
-// Returns the number that admesh reports for `label` after its repairs; -1 if the report has no such line. A line has
-// either this number alone, or the number before the repairs and then this one. Another label may follow.
+// Returns the number that admesh reports for `label` after its repairs; -1 if the report has no such line. A
+// line has one or two numbers. If it has two, the first is the number before the repairs, and the second is
+// the number after the repairs. Another label may follow.
 inline int reported(const std::string& report, const std::string& label) {
   const std::size_t line = report.find("\n" + label);
   if (line == std::string::npos) return -1;

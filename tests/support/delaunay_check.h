@@ -3,7 +3,7 @@
 //    those of the hull. So the linked triangles form a surface that is bounded by the hull.
 // 2. All triangles are counter-clockwise, so each point of the plane is covered as often as the hull winds
 //    around it. The hull turns only left, and only once around. So it winds once around each point inside,
-//    and around no other point: the triangles cover the hull without gaps or overlaps.
+//    and around no other point. Therefore the triangles cover the hull without gaps or overlaps.
 // 3. Across each edge, the far corner of the neighbour is not inside the triangle's circle. Then no point is
 //    inside the circle of any triangle (B. Delaunay, "Sur la sphere vide", 1934).
 #pragma once

@@ -21,7 +21,7 @@ struct PictureCamera {
   bool is_pinhole = false;
 
   double metre_px() const { return side / 1.25; }
-  double focal_px() const { return 1.1 * side; }  // the library assumes it for inverse depths
+  double focal_px() const { return 1.1 * side; }  // the library assumes this length for inverse depths
 
   DepthCamera as_depth_camera() const { return {focal_px(), focal_px(), (side - 1) / 2., (side - 1) / 2.}; }
 
@@ -36,7 +36,7 @@ struct PictureCamera {
     return is_pinhole ? std::exp(-z / focal_px()) : distance_m - z / metre_px();
   }
 
-  // Returns the normal in the picture of a surface that has the normal n at the point p.
+  // Returns the normal, in the picture's coordinates, of a surface that has the normal n at the point p.
   Vec3f map_normal(const Vec3& p, const Vec3& n) const {
     if (!is_pinhole) return n.cast<float>();
     const double depth = distance_m - p.z();
@@ -46,7 +46,8 @@ struct PictureCamera {
   }
 };
 
-// Returns the cloud in the coordinates of the camera's picture, after scaling it to one metre.
+// Returns the cloud in the coordinates of the camera's picture, after scaling it so that its width or its
+// height, whichever is larger, is one metre.
 inline Cloud in_picture(Cloud cloud, const PictureCamera& camera) {
   const Box box = bounds(cloud);
   const double metres = 1 / std::max(box.size().x(), box.size().y());
@@ -101,7 +102,7 @@ inline Image<double> heights_in_picture(const Cloud& cloud, int side) {
 struct DepthStorage {
   std::string name;
   DepthValues kind = DepthValues::depth;
-  double step = 0;                      // 1 for integers, 0 for fractions
+  double step = 0;                      // step between stored values: 1 for integers, 0 for fractions
   std::function<double(double)> value;  // returns the stored value of a depth
   bool is_pinhole = false;              // if so, metric depths come with the focal length
 };

@@ -53,7 +53,7 @@ class Bits {
 // Returns the quantisation and Huffman tables. The Huffman tables have 4-bit codes for the numbers of
 // bits from 0 to 9, and a 1-bit code for the end of a square.
 inline std::string tables() {
-  const std::string eights(64, '\x08');  // quantisation: a mean of 1 is a coefficient of 8
+  const std::string eights(64, '\x08');  // divides by 8, as the coefficient is 8 times the mean
   std::string dc("\0\0\0\0\x0A", 5), ac("\x10\1", 2);
   dc += std::string(12, '\0');
   for (char bits = 0; bits < 10; ++bits) dc += bits;

@@ -134,9 +134,10 @@ struct LazTestClass {
   std::uint32_t flags() const { return is_withheld ? 4 : 0; }
 };
 
-// Returns a chunk of points with one return each. LASzip predicts steps in x and y by medians of earlier
-// steps. Here the medians stay 0, because every step must be 0 or more, and every second step must be 0. Each
-// z is predicted by the previous z. Point i has the class classes[i]; there may be fewer classes than points.
+// Returns a chunk of points. Each point is the only return of its pulse, and point i has the class
+// classes[i]; there may be fewer classes than points. LASzip predicts a step in x or y by the median of
+// earlier steps, and z by the previous z. The caller must make every second step in x and y 0, and no step
+// negative. Then all medians are 0, and this encoder need not compute them.
 inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered,
                              std::vector<LazTestClass> classes = {}) {
   classes.resize(points.size());
@@ -178,7 +179,7 @@ inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_la
          size(flag_bytes.size()) + std::string(20, '\0') + xy + z_bytes + class_bytes + flag_bytes;
 }
 
-// Returns points such as laz_chunk() needs: every second step in x and y is 0.
+// Returns points such as laz_chunk() needs: no step in x and y is negative, and every second step is 0.
 inline std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::vector<LazTestPoint> points = {{-1000, 2000, 500}};

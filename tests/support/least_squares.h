@@ -46,8 +46,9 @@ struct EquationNine {
   }
 };
 
-// Returns the heights that minimise the sum over the edges of weight (z_p - z_q - (s_p + s_q)/2 . (p -
-// q))^2, with z = 0 at boundary points.
+// Returns the heights z that minimise the sum of
+//   weight (z_p - z_q - (s_p + s_q)/2 . (p - q))^2
+// over all edges (p, q), where s are the slopes, and z = 0 at boundary points.
 inline std::vector<double> least_squares_heights(const EquationNine& nine, std::span<const Vec2> slopes) {
   const auto n = static_cast<Eigen::Index>(slopes.size());
   std::vector<Eigen::Triplet<double>> entries;

@@ -35,7 +35,7 @@ inline Mesh sphere_mesh(double radius, int sides) {
       sides, sides / 2);
 }
 
-// Returns a torus about the z axis. R is the distance from the axis to the centre of the tube, and r the
+// Returns a torus about the z axis. R is the distance from the axis to the centre of the tube, and r is the
 // radius of the tube.
 inline Mesh torus_mesh(double R, double r, int sides) {
   return parametric_mesh(

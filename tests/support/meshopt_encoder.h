@@ -26,7 +26,7 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
 }
 
-// The numbers of bits per difference that the four possible codes of a group stand for.
+// Element i is the number of bits per difference in a group with the code i.
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 

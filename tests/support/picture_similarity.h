@@ -13,7 +13,7 @@ namespace relievo::test {
 namespace similarity {
 
 constexpr int reach = 5;
-constexpr double sigma = 1.5, c1 = 6.5025, c2 = 58.5225;  // (.01 * 255)^2 and (.03 * 255)^2
+constexpr double sigma = 1.5, c1 = 6.5025, c2 = 58.5225;  // c1 = (.01 * 255)^2, c2 = (.03 * 255)^2
 
 inline Image<double> luminance(const Image8& picture) {
   Image<double> grey;

@@ -98,8 +98,9 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
   return polygon;
 }
 
-// Returns the Delaunay triangulation of a square grid of points, rotated by an angle. The heights are z(x, y) inside
-// and 0 on the sides. Because of rounding, the sides are not exactly straight, as in meshes that are sampled on a grid.
+// Returns the Delaunay triangulation of a square grid of points, rotated by an angle. The heights are z(x, y)
+// inside and 0 on the sides. Because of rounding, the sides are not exactly straight. Meshes that are sampled
+// on a grid have such sides, too.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
   std::vector<Vec3> points;

@@ -18,8 +18,8 @@ struct PlyColumn {
   std::string length_type = {};  // the type of a list's length; empty if this is no list
 };
 
-// An element of a PLY file. Each row has one number per column. For a list, it has the list's length and then
-// its values.
+// An element of a PLY file. Each row has one number per column. For a list, the row has the list's length and
+// then the list's values.
 struct PlyTable {
   std::string name;
   std::vector<PlyColumn> columns;

@@ -26,7 +26,8 @@ inline Pose at(double x, double y, double z, const Vec3& rotate_deg = Vec3::Zero
   return {rotate_deg, Vec3(x, y, z)};
 }
 
-// Returns a wedge that no rotation or reflection maps onto itself, so that tests notice a wrong one.
+// Returns a wedge that no rotation or reflection maps onto itself, so that tests notice a wrong rotation or
+// reflection.
 inline Mesh wedge() {
   return {{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }

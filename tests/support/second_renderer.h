@@ -27,8 +27,9 @@ struct RayCamera {
   }
 };
 
-// Returns the picture's axes after two rotations. The rotation about the vertical axis brings the right side
-// nearer, the rotation about the horizontal axis the lower side.
+// Returns the picture's axes after two rotations. If the angles are positive, the rotation about the vertical
+// axis brings the left side nearer to the viewer, and the rotation about the horizontal axis then brings the
+// upper side nearer.
 inline Mat3 axes_after(double yaw_deg, double pitch_deg) {
   const double a = yaw_deg * std::numbers::pi / 180, b = pitch_deg * std::numbers::pi / 180;
   Mat3 yaw, pitch;

@@ -26,9 +26,10 @@ inline bool on_axis_line(const Vec3& a, const Vec3& b, const Vec3& c) {
   return common >= 2;
 }
 
-// Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is counter-clockwise as
-// seen from d. Most determinants that are 0 are found without exact arithmetic: two points are equal, three points lie
-// on a line parallel to an axis, or all points lie in a plane perpendicular to one.
+// Returns the sign of the determinant of b - a, c - a and d - a. It is 1 if the triangle abc is
+// counter-clockwise as seen from d. In most cases in which the determinant is 0, this is found without exact
+// arithmetic. In these cases, two points are equal, three points lie on a line parallel to an axis, or all
+// points lie in a plane perpendicular to an axis.
 inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
   if (d == a || d == b || d == c || a == b || a == c || b == c) return 0;
   if (on_axis_line(a, b, c) || on_axis_line(a, b, d) || on_axis_line(a, c, d) || on_axis_line(b, c, d))

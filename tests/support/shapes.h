@@ -54,7 +54,7 @@ inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t
 }
 
 // Returns uniformly distributed points on a torus about the z axis. R is the distance from the axis to the
-// centre of the tube, and r the radius of the tube.
+// centre of the tube, and r is the radius of the tube.
 inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   Random random(seed);
   Cloud cloud;

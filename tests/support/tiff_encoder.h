@@ -37,7 +37,7 @@ inline std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
                                    {278, 4, 1, height},
                                    {279, 4, 1, static_cast<std::uint32_t>(pixels.size())},
                                    {339, 3, 1, tags.kind}};
-  if (tags.channels == 2) {  // there, two equal 16-bit numbers fit into the field
+  if (tags.channels == 2) {  // then two fields hold two equal 16-bit numbers each
     fields[2].count = fields[9].count = 2;
     fields[2].value *= 65537, fields[9].value *= 65537;
     fields.insert(fields.end() - 1, {338, 3, 1, 2});

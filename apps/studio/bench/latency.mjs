@@ -1,5 +1,5 @@
-// Measures two durations in Chromium at 1280 x 800: from an event of the mouse to the picture that shows its effect,
-// and from the choice of a file to the first relief and to the relief of all points, in milliseconds.
+// Measures three durations in Chromium at 1280 x 800, in milliseconds: from an event of the mouse to the picture that
+// shows its effect; from the choice of a file to the first relief; and from that choice to the relief of all points.
 //   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
 // With relievo.html, the page in one file, the engine inside that file is measured. Each movement is a drag of 4
 // seconds with 60 events a second, sent without waiting for pictures. If several events arrive while one picture is
@@ -18,7 +18,8 @@ const MOVEMENTS = {
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
   turn: {tool: "Turn", from: 0.45, to: 0.6},
-  // The brush moves in a circle without a stop: an event near the last position paints nothing, so no picture follows.
+  // The brush moves in a circle and never stops, because an event near the last position paints nothing and so causes
+  // no picture.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
   handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
 };
@@ -142,7 +143,7 @@ function listen(type) {
   });
 }
 
-// Returns for each event the time to the first picture that shows its effect, sorted.
+// Returns the sorted times from each event to the first picture that shows the event's effect.
 function latencies(events, pictures) {
   const times = events.map((event) => pictures.find(({shows}) => shows >= event)?.at - event);
   return times.filter(Number.isFinite).sort((a, b) => a - b);

@@ -1,4 +1,4 @@
-// Takes the pictures of the studio for the README: node apps/studio/bench/screenshots.mjs
+// Takes the pictures of the studio for the README. Usage: node apps/studio/bench/screenshots.mjs
 import {EngineProcess, areKindsDrawn, findBrowser, temporaryFolder} from "../tests/support.mjs";
 
 const found = await findBrowser();

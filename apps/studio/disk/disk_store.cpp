@@ -104,8 +104,8 @@ std::string digits_of(const std::string& hash) {
   return hash.substr(hash.find(':') + 1);
 }
 
-// Returns the names of the folders of stored scans that a text mentions. The text is a document with all its undo
-// steps, or a scene file.
+// Finds the stored scans that a text mentions, and returns the names of their folders. The text is a document
+// with all its undo steps, or a scene file.
 std::set<std::string> scans_in(std::string_view text) {
   constexpr std::string_view before = "/scans/";
   constexpr std::size_t digits = 16;
@@ -119,7 +119,8 @@ std::set<std::string> scans_in(std::string_view text) {
 }  // namespace
 
 DiskStore::DiskStore(StateFolder folder)
-    // Replaces a folder that is not ours by /dev/null. No file can exist below it, so nothing is found or stored.
+    // If the folder is not ours, uses /dev/null instead. No file can exist below /dev/null, so nothing is
+    // found or stored.
     : folder_(folder.is_ours ? std::move(folder.path) : "/dev/null"),
       notice_(std::move(folder.notice)),
       lock_(std::move(folder.lock)) {
@@ -154,7 +155,7 @@ Result<void> DiskStore::keep_document(const std::string& id, std::string_view st
   RELIEVO_CHECK(check_id(id));
   RELIEVO_CHECK(
       write(cat(documents, "/", id, ".json"), state, is_moving ? Durability::program : Durability::machine));
-  touch(id);  // needed for the order of documents: the kernel's own file times are too coarse
+  touch(id);  // because the kernel's own file times are too coarse for the order of documents
   return {};
 }
 
@@ -268,7 +269,7 @@ Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts
 }
 
 // Removes the candidates that no document needs. Removes none if a document cannot be read. Keeps a file
-// whose hash is not the name of its folder: the studio did not put that file there.
+// whose hash is not the name of its folder, because the studio did not put that file there.
 void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
   if (candidates.empty()) return;
   std::vector<std::string> texts;

@@ -12,7 +12,8 @@
 
 namespace relievo::app::studio {
 
-// The last address of the studio. The next run uses it again, so that pages that are still open find it.
+// The last address of the studio. The next run uses this address again, so that pages that are still open
+// find the studio.
 struct StudioAddress {
   int port = 0;       // 0 if unknown
   std::string token;  // empty if unknown

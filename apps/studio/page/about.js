@@ -23,8 +23,8 @@ export const about = await ask();
 // Numbers also have min and max, and enumerations have choices.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
-// Returns the default of an option; null if it has none. `by` names a method, a form, or "diameter": the option may
-// have a special default for it.
+// Returns the default of an option; null if it has none. `by` is the name of a method or a form, or "diameter". If the
+// option has a special default for `by`, returns that default.
 export function defaultOf(name, by) {
   const option = optionOf(name), value = option.default ?? null;
   return option.default_with?.[by] ?? value?.[by] ?? value; // `value` is an object if methods have different defaults

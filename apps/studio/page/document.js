@@ -44,7 +44,7 @@ export class Document {
     this.steps = [FIRST];
     this.at = 0;
     this.forgotten = 0; // number of old steps that were dropped from the beginning of `steps`
-    this.changedAt = 0; // time of the last change in ms since 1970; the state with the later time replaces others
+    this.changedAt = 0; // time of the last change in ms since 1970; a stored state with a later time replaces this one
   }
 
   stamp() {
@@ -112,13 +112,13 @@ export class Document {
     return true;
   }
 
-  // Writes values that the engine found into the current step. Adds no step.
+  // Changes the current step to values that the engine has found. Adds no step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
   }
 
-  // Ends the running gesture. If `gesture` is given, ends only that one: the pause of a slider may end when the next
-  // drag has already begun.
+  // Ends the running gesture. If `gesture` is given, ends only that gesture, because the pause after a slider's
+  // movement may end when the next drag has already begun.
   endGesture(gesture = null) {
     if (gesture !== null && gesture !== (this.gesture ?? this.cancelled)) return;
     this.gesture = this.cancelled = null;
@@ -175,7 +175,8 @@ const SHAPE = namesOf("shape").filter((name) => !/^(width|mm-per-value|ground)$/
 // The options of the shape that the method `paper` does not have.
 const NOT_OF_PAPER = SHAPE.filter((name) => /^(tone|steps|planes|light|attention|colour|strokes)$/.test(name));
 
-// The options of texts and ornaments, which need ground around the relief. A document keeps them while it has none.
+// The options of texts and ornaments, which need ground around the relief. A document without ground keeps these
+// options.
 export const ON_GROUND = namesOf("plate").filter((name) => /^(text|font|ornaments)/.test(name));
 export const hasGround = ({options}) => options.outline !== "none" && options.form !== "lithophane";
 

@@ -9,11 +9,12 @@
 //                                  The Engine has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
 //                                  picture; `facts` has facts about it; the request is optional. onSolved is called
-//                                  when the heights of a picture are solved, if the next can be solved meanwhile
+//                                  when the heights of a picture are solved, if those of the next picture can be
+//                                  solved while this picture is drawn
 //   addressOf(file)             -> the address of one of the page's pictures
-//   follow(onStatus, onLost, say)  calls onStatus for each new status of an open document, in all tabs, and with only
-//                                  {run} when it finds an engine; onLost when the engine is lost; say with a message
-//                                  for the user
+//   follow(onStatus, onLost, say)  calls onStatus(status) for each new status of an open document, in all tabs; calls
+//                                  onStatus({run}) when it finds an engine; calls onLost() when the engine is lost; and
+//                                  calls say(text) with a message for the user
 // and throws EngineError with a text for the user.
 
 // `input` names the option or the file that caused the error. The text begins with that name.
@@ -81,7 +82,8 @@ export class Engine {
   // Returns {view, up} of each of the six sides, the best side first.
   suggestViews = async () => (await this.#ask("views")).views;
 
-  // Return {image: ImageData, facts}. `options` has a `signal` that can cancel the picture, and onSolved of transports.
+  // Return {image: ImageData, facts}. `options` has a `signal` that can cancel the picture, and the function onSolved
+  // (see call() of transports).
   picture = (request, options) => this.#picture("picture", request, options);
   scan = (request) => this.#picture("scan", request);
   // Returns a picture of the depth image. Its facts state the colours of the pixels that were left out.

@@ -22,8 +22,9 @@ function mapOptions(format, pixelMm) {
     "heightmap-zero": black === "ground" ? "ground" : "lowest", "heightmap-high": black === "highest" ? "black" : "white"};
 }
 
-// Returns the sizes of a piece's files as texts. They are exact if the numbers of triangles and points determine them,
-// "about" for compressed and text files, and "at most" for a compressed height map.
+// Returns the sizes of a piece's files as texts. The texts are exact if the numbers of triangles and points determine
+// the sizes. They begin with "about" for compressed files and text files, and with "at most" for a compressed height
+// map.
 function sizes({triangles, points, size_mm: [x, y]}, {pixels, pixelMm}) {
   const longer = Math.max(x, y), side = pixelMm ? longer / pixelMm : pixels, area = side * side * Math.min(x, y) / longer;
   const around = (bytes) => `about ${fileSize(bytes)}`, atMost = (bytes) => `at most ${fileSize(bytes)}`;
@@ -35,8 +36,8 @@ function sizes({triangles, points, size_mm: [x, y]}, {pixels, pixelMm}) {
 }
 
 export class ExportDialog {
-  // `outcome` is an Outcome. `name` returns the default name of the files, and `heightText` a height as the page shows
-  // it. `say` shows a line to the user.
+  // `outcome` is an Outcome. `name` returns the default name of the files, and `heightText` returns a height as the
+  // page shows it. `say` shows a line to the user.
   constructor({engine, outcome, name, heightText, say}) {
     Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, pixelMm: null, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
@@ -70,8 +71,8 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Opens the dialog. Makes the piece as soon as all entries are settled: then the sizes of its files are known, and
-  // each file is written quickly.
+  // Opens the dialog. Makes the piece as soon as all entries are settled. After that, the sizes of the piece's files
+  // are known, and each file is written quickly.
   async open() {
     const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;

@@ -4,7 +4,8 @@ import {$, make, sentence} from "./controls.js";
 
 export const fileNameOf = (path) => path.split(/[/\\]/).at(-1);
 
-// Returns a hidden input of files with those endings, which calls take(file). Its click() opens the browser's dialog.
+// Returns a hidden input for files with those endings. Its click() opens the browser's dialog; then it calls take(file)
+// with the chosen file.
 export const fileInput = (label, accept, take) =>
   make("input", {type: "file", accept, hidden: true, "aria-label": label, onchange: ({target}) => {
     const [file] = target.files;

@@ -107,16 +107,16 @@ addEventListener("change", (event) => {
 
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
-// After a dialog, Chromium gives the focus back to a field, but not the selection: Ctrl A would then select nothing. So
-// all text of the field is selected, as after the Tab key.
+// After a dialog, Chromium gives the focus back to a field, but does not select its text again, and Ctrl A would then
+// select nothing. So all text of the field is selected here, as the Tab key does it.
 addEventListener("close", () => {
   const {activeElement: field} = document;
   if (field?.matches(TEXTS)) field.select();
 }, true);
 
-// Calls the function of each key that is pressed. `commands` are keys with Ctrl or Cmd, `always` are others; `keys`
-// work only while isReady(). Calls hold(isHeld) when B is pressed and released. While a dialog is open, keys do
-// nothing; while the user types, keys without Ctrl do nothing.
+// Calls the function of each key that is pressed. `commands` has the functions of keys with Ctrl or Cmd. The functions
+// in `always` and `keys` are for other keys; those in `keys` are called only while isReady(). Calls hold(isHeld) when B
+// is pressed and released. While a dialog is open, keys do nothing; while the user types, keys without Ctrl do nothing.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;

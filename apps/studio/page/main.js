@@ -96,7 +96,8 @@ let modelFacts = null; // facts about the shown model
 let facts = null; // facts about the newest picture
 let isKept = !about.notice;
 
-// Sets the tone curve of the document, and returns the document's curve: the former one if the drag was cancelled.
+// Sets the tone curve of the document. Returns the curve that the document then has, which is the former curve if the
+// drag was cancelled.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
   return doc.now.options.tone;
@@ -127,8 +128,8 @@ addEventListener("change", ({target}) => target.type !== "range" && takeRefusalB
 
 function changed(before) {
   const {now} = doc;
-  // The message about a refusal stays during later changes of the same drag, which are no new entries, and when a
-  // waiting entry is inserted, which may be older than the refusal.
+  // The message about a refusal stays during later changes of the same drag, because they are no new entries. It also
+  // stays when a waiting entry is inserted, because that entry may be older than the refusal.
   if (!entries.isInserting && doc.steps.includes(before)) takeRefusalBack();
   opened.keep(doc.gesture !== null);
   tour.takeBack();
@@ -179,7 +180,7 @@ function showEntries() {
   for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
-// Tells the user once that changes are not stored. Not called if the engine is lost, which has its own message.
+// Tells the user once that changes are not stored. Not called if the engine is lost, because another message says so.
 function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
@@ -291,7 +292,7 @@ async function arrived(status) {
   depthPanel.tell(modelFacts.depth_image).catch(failed);
   lightPanel.tell(modelFacts);
   cropFrame.refresh();
-  // With takesSeveral there is no panel: a new scene file could not refer to the models' files.
+  // With takesSeveral there is no panel, because a new scene file could not refer to the models' files.
   scenePanel.show(engine.takesSeveral ? [] : modelFacts.models);
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
@@ -316,7 +317,7 @@ async function openInput(input, work) {
 
 const openFiles = (files) => projects.openFiles(files).catch(failed);
 
-// Shows that an upload or a download is running until the promise `bytes` settles, which takes long for large scans.
+// Until the promise `bytes` settles, shows that an upload or a download is running. Large scans take long.
 async function take(bytes) {
   const isStart = !$("#start").hidden;
   showStart(false);

@@ -52,7 +52,8 @@ export class Modes {
 
   toggleTable = () => this.setTable(!isPressed("#light-table"));
 
-  // Starts or ends a comparison: the left side of a divider shows the model or the relief of the snapshot `rival`.
+  // Starts or ends a comparison. During a comparison, the left side of a divider shows the relief of the snapshot
+  // `rival`, or the model if `rival` is null.
   setComparing(isComparing, rival = null) {
     if (isComparing === isPressed("#compare") && rival === this.rival) return;
     this.rival = rival;
@@ -67,7 +68,8 @@ export class Modes {
     this.compared();
   }
 
-  // Shows the model beside the relief, coloured by its attention, or ends the comparison.
+  // If `isShown` is true, shows the model, coloured by its attention, beside the relief. Otherwise ends this
+  // comparison.
   showAttention(isShown) {
     this.stage.comparing.set({hasAttention: isShown});
     this.setComparing(isShown);

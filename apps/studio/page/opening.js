@@ -30,15 +30,16 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun(former) when another document is shown; `former` is the input of the former document, or null;
-  // on.progress(status);
-  // on.measured(status) when pictures of the first view can be drawn although it is not yet prepared;
-  // on.arrived(status) when the model is ready;
-  // on.changed() when a newer state came from another tab or engine;
-  // on.missing(input, kept) if the scan is missing;
-  // on.refused(why) if the view cannot be prepared, with "" if the user cancelled it;
-  // on.failed(error);
-  // and on.closed() when no document is left to show.
+  // Calls these functions of `on`:
+  //   begun(former)         when another document is shown; `former` is the input of the former document, or null
+  //   progress(status)      for each new status of the document
+  //   measured(status)      when pictures of the first view can be drawn although this view is not yet prepared
+  //   arrived(status)       when the model is ready
+  //   changed()             when a newer state came from another tab or engine
+  //   missing(input, kept)  if the scan is missing
+  //   refused(why)          if the view cannot be prepared; `why` is "" if the user cancelled the preparation
+  //   failed(error)         after any other error
+  //   closed()              when no document is left to show
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
     this.asked = null; // the view that this page requested last; null once the engine has reported it
@@ -84,8 +85,8 @@ export class OpenDocument {
     if (status && this.id === id) this.take(status);
   }
 
-  // Requests the document's view. First waits until the engine has opened the document, as it would refuse an earlier
-  // request.
+  // Requests the document's view. First waits until the engine has opened the document, because the engine would refuse
+  // an earlier request.
   async chooseView() {
     const {id} = this;
     this.asked = viewOf(this.doc.now);

@@ -1,6 +1,6 @@
 // Reads the list of ornaments (texts, borders and drawings) of a document. The list is the JSON text of the option
-// `ornaments`, so projects contain it. This file imports no other file of the page: transports import it, and the other
-// files need the facts that a transport provides.
+// `ornaments`, so projects contain it. This file imports no other file of the page, because transports import it, and
+// the other files need the facts that a transport provides.
 
 const isPath = (source) => !/^(?:[{[]|$)/.test(source);
 

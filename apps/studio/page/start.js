@@ -35,7 +35,9 @@ export class Shelf {
     const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
     const names = recent.map(({document, is_there: isThere}) => `${document} ${isThere}`).join();
-    if (names === this.names) // keeps the cards: one that is replaced while the mouse button is down gets no click
+    // If the list is unchanged, the cards stay, because a card that is replaced while the mouse button is down gets no
+    // click.
+    if (names === this.names)
       recent.forEach(({thumbnail}, i) => showThumbnail($("#recent").children[i].querySelector("img"), thumbnail));
     else
       $("#recent").replaceChildren();

@@ -36,8 +36,8 @@ export function simplified(points, tolerance) {
   return points.length > 1 ? [first, last] : [first];
 }
 
-// Returns the two positions, as shares of the way from a to b, between which the line through a and b is within the
-// radius of a point. Returns null if no part of the segment from a to b is within the radius.
+// Finds the part of the line through a and b that is within the radius of a point. Returns the two ends of this part,
+// as shares of the way from a to b. Returns null if no part of the segment from a to b is within the radius.
 function within(a, b, point, radius) {
   const line = sub(b, a), from = sub(a, point);
   const square = dot(line, line), half = dot(from, line), rest = dot(from, from) - radius * radius;
@@ -66,7 +66,8 @@ function partsOutside(points, point, radius) {
 }
 
 // Erases the parts of strokes within the radius of a point. A line that is cut in the middle becomes two strokes. A
-// lasso is erased as a whole if its edge is within the radius, a region if its point is.
+// lasso is erased as a whole if a part of its edge is within the radius. A region is erased if its point is within the
+// radius.
 export const erased = (strokes, point, radius) => strokes.flatMap((stroke) => {
   const {area = "line", points: [first]} = stroke, isLine = area === "line";
   const outline = area === "lasso" ? [...stroke.points, first] : stroke.points;

@@ -9,7 +9,7 @@ async function errorIn(response) {
     const {error} = await response.json();
     if (error) return new EngineError(error);
   } catch {
-    // the body is not JSON: the message only states the status
+    // the body is not JSON, so the message only states the status
   }
   return new EngineError({kind: "request", text: `The engine answered ${response.status}.`});
 }
@@ -44,8 +44,8 @@ export class Transport {
   addressOf = (file) => file;
 
   // A browser opens at most six connections to a server for all its tabs together, and a stream of events uses one of
-  // them. So only the tab that has the lock opens the stream, and passes the events on to the others. When that tab is
-  // closed, another one gets the lock.
+  // them. So only the tab that has the lock opens the stream, and passes the events on to the other tabs. When that tab
+  // is closed, another one gets the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());
@@ -65,8 +65,8 @@ export class Transport {
     });
   }
 
-  // Opens the stream of events. The browser itself reconnects a stream that breaks, but not one that was refused, which
-  // is therefore opened again here.
+  // Opens the stream of events. The browser itself reconnects a stream that breaks, but it does not reconnect a stream
+  // that was refused. So a refused stream is opened again here.
   listen(pass) {
     const source = new EventSource("api/events");
     source.onmessage = (event) => pass(JSON.parse(event.data));

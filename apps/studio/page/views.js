@@ -22,8 +22,8 @@ export class ViewDialog {
     this.listen();
   }
 
-  // Shows a picture of the document's view beside the view's name. The name alone may be misleading: sides refer to the
-  // axes of the file, and a figure may lie on its back in the file.
+  // Shows a picture of the document's view beside the view's name. The name alone may be misleading, because sides
+  // refer to the axes of the file, and a figure may lie on its back in the file.
   async tell({options, input}, isThere) {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
@@ -50,7 +50,7 @@ export class ViewDialog {
     this.dialog.returnValue = "cancel";
     $("#suggestion").textContent = "";
     this.dialog.showModal();
-    this.look(directionsOf(options) ?? SIDES.front); // the view may not be chosen yet
+    this.look(directionsOf(options) ?? SIDES.front); // perhaps no view is chosen yet
     this.drawSides().catch(this.onFailed);
   }
 

@@ -179,7 +179,7 @@ test("makes a lithophane of a photo pixel by pixel, as the command line does", a
 });
 
 test("takes a photo that only the browser can read", async () => {
-  const jpeg = await page.evaluate(() => { // its left half is black, its right half white
+  const jpeg = await page.evaluate(() => { // its left half is black, and its right half is white
     const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
     canvas.width = canvas.height = 64;
     context.fillRect(0, 0, 64, 64);

@@ -54,7 +54,8 @@ test("keeps a document for each scan, and the newer state of each", async () => 
 test("neither replaces a document that it cannot read, nor removes a scan then", async () => {
   let other = await studioIn("unread");
   const input = await dropped(other, "b.xyz", "0 0 0\n"), {document} = await other.json("document", {input});
-  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // no file: unreadable
+  // A folder takes the place of the document's file, so that the studio cannot read the document.
+  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true});
   const told = await other.post("document", {input}), kept = await keep(other, document, stateOf(input, 1, 1));
   assert.match(String(told.body), /expected a folder of the studio that can be read: /);
   assert.deepEqual([told.status, kept.status], [500, 500]);

@@ -169,7 +169,8 @@ test("keeps a height that is typed while the picture of the one before is drawn,
   await letGo();
   assert.equal((await next).postDataJSON().options.height, 4);
   await untilReady(page);
-  assert.ok(Math.abs((await value("height")) - 4) < 0.2); // before it was 3.2; without a lock 4 is only met roughly
+  // Before this entry the height was 3.2. A height that is not locked is met only roughly.
+  assert.ok(Math.abs((await value("height")) - 4) < 0.2);
   assert.match(await option("height").inputValue(), /^\d+\.\d\d$/);
   await free();
 });

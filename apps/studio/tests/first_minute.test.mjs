@@ -401,7 +401,7 @@ test("puts several files side by side, and turns, scales and removes them", asyn
   await page.getByText("ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await soon.equal(() => page.locator("#scene li").count(), 1);
-  await engine.stop(); // the engine stores the scans of a scene as long as the scene
+  await engine.stop(); // the engine stores the scans of a scene as long as it stores the scene
   await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
@@ -496,7 +496,7 @@ function writeBallOnTable(file) {
   writePoints(file, points);
 }
 
-// Writes a ball, and beside it a small ball that has 0.4 % of its area.
+// Writes a ball, and beside it a small ball with 0.4 % of the first ball's area.
 function writeBallWithCrumb(file) {
   const random = randomNumbers(1), ball = (count, radius, x) => Array.from({length: count}, () => {
     const normal = anyNormal(random), [a, b, c] = normal.map((y) => y * radius);
@@ -517,7 +517,7 @@ test("leaves out a small piece, and keeps it or not at the press of a button", a
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
   await note("Small pieces are kept.").waitFor();
-  await untilWide(1.15, 1.25); // both balls: 2.465 by 2 radii of the larger one, plus the margins
+  await untilWide(1.15, 1.25); // both balls together are 2.465 by 2 radii of the larger ball, without margins
   await soon.ok(() => crumbs.isChecked());
   await offered("Leave them out").click();
   await note(/^Left out 1 small piece/).waitFor();

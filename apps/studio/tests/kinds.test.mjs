@@ -68,7 +68,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", asyn
   await soon.ok(() => radio("Plaque").isChecked());
 });
 
-// Returns the options of a document on which the heights depend, with a fine resolution.
+// Returns those options of a document that determine the heights, and a fine resolution.
 const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness, margin}) =>
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 

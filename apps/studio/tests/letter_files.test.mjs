@@ -16,7 +16,8 @@ withPage("still_life", 5000, async () => {
 const list = async () => JSON.parse((await engine.newestStep(scan)).options.ornaments || '{"ornaments":[]}').ornaments;
 const note = () => page.locator("#ornaments-note");
 
-// The file of the font that is built into the program. A text has the same outlines with either.
+// The file of the font that is built into the program. A text has the same outlines with this file and with the
+// built-in font.
 const FONT = readFileSync(new URL("../../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url));
 const SQUARE = '<svg xmlns="http://www.w3.org/2000/svg"><path d="M0 0h10v10h-10z"/></svg>';
 

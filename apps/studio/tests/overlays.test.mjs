@@ -30,7 +30,8 @@ test("closes by the keyboard a line that offers something, and does what it offe
   await button("Dismiss").click();
 });
 
-// Each measured line ends near the label of the relief's height or width, so that its own label could cover that one.
+// Each measured line ends near the label of the relief's height or width, so that the line's own label could cover that
+// label.
 test("keeps the labels of measures apart", async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
@@ -158,7 +159,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
   for (const [kind, fields] of Object.entries(kinds)) {
     await page.locator(`[data-kind="${kind}"]`).click();
-    await page.locator("[data-material=plaster]").click(); // the model is in plaster, too; metal would have other edges
+    await page.locator("[data-material=plaster]").click(); // like the model; edges of metal look different
     for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
     await eventually(async () => {
       await untilReady(page);

@@ -218,7 +218,8 @@ test("finds the points of the model under places of its picture, in the coordina
     for (const [i, [x, y, z]] of points.slice(0, 3).entries()) {
       const [wantedX, wantedY] = place(...places[i]);
       assert.ok(Math.hypot(x - wantedX, y - wantedY) < 1e-9, `${x} ${y} at ${places[i]}`);
-      assert.ok(Math.abs(z - bowl(x, y)) < 0.006, `${z} is not ${bowl(x, y)}`); // slope times half a step of the grid
+      // The tolerance is the slope of the bowl times half a step of the grid.
+      assert.ok(Math.abs(z - bowl(x, y)) < 0.006, `${z} is not ${bowl(x, y)}`);
     }
   }
   engine.document = document;
@@ -243,7 +244,7 @@ test("samples the tone curve and the paper's formula", async () => {
 
 test("meets the height at rest in pictures of any size", async () => {
   const exact = await picture({options: {...OPTIONS, height: 3.3}, fine: true});
-  await picture({options: {...OPTIONS, height: 3.2}}); // the search for the next height begins here
+  await picture({options: {...OPTIONS, height: 3.2}}); // the search for the next height begins at this height
   const large = await picture({options: {...OPTIONS, height: 3.3}, width: 2000, height: 1500, fine: true});
   assert.ok(Math.abs(large.u / exact.u - 1) < 1e-3, `${large.u} is not ${exact.u}`);
 });
@@ -284,7 +285,7 @@ test("gives up a fine picture when another is asked for", async () => {
   const large = {...PICTURE, width: 1600, height: 1500, fine: true};
   assert.equal((await engine.post("picture", large)).status, 200);
   const fine = engine.post("picture", {...large, light: [1, 0, 1]});
-  await sleep(50); // drawing takes several times longer
+  await sleep(50); // drawing the fine picture takes several times longer than this
   assert.equal((await engine.post("picture", PICTURE)).status, 200);
   const {status, body} = await fine; // not the status of an error, since browsers log errors in their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
@@ -348,7 +349,7 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
 function writeUpright(scan, file) {
   const bytes = readFileSync(scan);
   const start = bytes.indexOf("end_header\n") + "end_header\n".length;
-  for (let at = start; at < bytes.length; at += 12) { // three floats each: positions and normals
+  for (let at = start; at < bytes.length; at += 12) { // each position and each normal has three floats
     const [y, z] = [bytes.readFloatLE(at + 4), bytes.readFloatLE(at + 8)];
     bytes.writeFloatLE(-z, at + 4);
     bytes.writeFloatLE(y, at + 8);

@@ -44,7 +44,7 @@ async function picture(request) {
 const near = (a, b, within, text) =>
   assert.ok(a.every((x, i) => Math.abs(x - b[i]) <= within), `${text}: ${a} is not ${b}`);
 
-// For these pieces, the size is known before the piece is finished: they have no base, rim or wrap.
+// For these pieces, the size is known before the piece is finished, because they have no base, rim or wrap.
 const LEVEL = ["plaque", "round corners", "circle without a rim", "plate with a size", "lithophane", "height out of reach"];
 
 async function compare(name, options, extra = {}) {

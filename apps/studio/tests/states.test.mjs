@@ -32,7 +32,8 @@ async function openScan(of) {
 }
 
 // Runs in the page. Returns the parts that scroll although they must not. No part may scroll horizontally. The parts
-// around the picture may not scroll vertically; on a desk, dialogs and the start page may not either.
+// around the picture may not scroll vertically. On a desk, dialogs and the start page may not scroll vertically,
+// either.
 function scrolling() {
   const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
   const around = "html, body, main, .studio, .work, #stage, #table, .status";

@@ -242,8 +242,8 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
   card.dataset.drawn === "exact");
 
-// Replaces the text of a field key by key, because browsers distinguish typed text from text that a script sets. Waits
-// until the field is enabled: before that, keys would go to the field that had the focus.
+// Replaces the text of a field key by key, because browsers distinguish typed text from text that a script sets. First
+// waits until the field is enabled, because before that the keys would go to the field that had the focus.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys only to the page in front
   await eventually(async () => {
@@ -290,7 +290,7 @@ function without(missing) {
 }
 
 // Sets the time limit PATIENCE_MS for all pages of a browser, and delays their requests by RELIEVO_SLOW_MS. With a
-// delay, a test that does not wait for the values that it checks fails, as it would on a busy machine.
+// delay, a test fails if it does not wait for the values that it checks. Such a test would also fail on a busy machine.
 function patient(browser) {
   const newContext = browser.newContext.bind(browser), delayMs = Number(process.env.RELIEVO_SLOW_MS ?? 0);
   const later = (route) => sleep(delayMs).then(() => route.continue()).catch(() => {}); // the page may be closed

@@ -29,7 +29,8 @@ export class EngineWorkers {
     return [...this.#waiting.values()].some(({isMaking}) => isMaking);
   }
 
-  // Sends a call. Calls onSolved when a picture's heights are solved, so that those of the next one can be solved.
+  // Sends a call. Calls onSolved when a picture's heights are solved, so that the heights of the next picture can be
+  // solved.
   send(call, request = {}, files = [], onSolved = () => {}) {
     const id = ++this.#last, isMaking = call === "piece" || call === "export";
     return new Promise((resolve, reject) => {

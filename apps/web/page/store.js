@@ -2,7 +2,7 @@
 import {EngineError} from "../../studio/page/engine.js";
 import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
-const MOST_RECENT = 24; // most documents to store, each with its scan
+const MOST_RECENT = 24; // largest number of documents to store, each with its scan
 
 const done = (request) => new Promise((resolve, reject) => {
   request.onsuccess = () => resolve(request.result);
@@ -53,7 +53,7 @@ export class BrowserStore {
     if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
     const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
     const whole = ended(transaction);
-    whole.catch(() => {}); // if next() throws, nobody awaits `whole`: avoids an unhandled rejection
+    whole.catch(() => {}); // avoids an unhandled rejection if next() throws, because nobody then awaits `whole`
     const now = await done(store.get(key));
     let changed;
     try {

@@ -1,5 +1,5 @@
-// Answers the calls of the studio's page: the requests that the native studio gets by HTTP, and calls for the work that
-// the native studio does with files and threads.
+// Answers the calls of the studio's page. Some calls are requests that the native studio gets by HTTP. The
+// others ask for work that the native studio does with files and threads.
 #include "web/calls.h"
 
 #include "common/files.h"

@@ -200,7 +200,8 @@ test("a base takes an image, which the browser and a project keep", options, asy
   assert.deepEqual([...studio.errors, ...other.errors], []);
 });
 
-// The file of the font that is built into the program. A text has the same outlines with either.
+// The file of the font that is built into the program. A text has the same outlines with this file and with the
+// built-in font.
 const FONT = new URL("../../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url);
 
 test("a legend has the bytes of the native program, and a font by file stays in browser and project", options, async (t) => {

@@ -53,7 +53,7 @@ export function pageWithLittleMemory(t) {
   return pathToFileURL(place).href;
 }
 
-// Returns the offset of the section of a module that describes its memory.
+// Finds the section that describes the memory of a module, and returns the section's offset.
 function memorySection(module) {
   const MEMORY = 5;
   for (let at = 8; at < module.length;) {

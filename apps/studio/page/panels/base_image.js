@@ -32,7 +32,7 @@ export class BaseImage {
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
       if (document !== this.engine.document) return;
-      const wasGone = isGone(path); // the path depends on the content: the same image has the same path as before
+      const wasGone = isGone(path); // the path depends on the content, so the same image has the same path as before
       markGone(path, false);
       this.doc.change({options: part});
       if (wasGone) this.redraw();

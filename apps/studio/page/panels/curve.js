@@ -1,5 +1,5 @@
-// Edits the tone curve: the fraction of a slope that is kept, over the square root of the curvature. The engine samples
-// the curve, or the paper's formula if there is no curve, and sends the samples with each picture.
+// Edits the tone curve: the fraction of a slope that is kept, as a function of the square root of the curvature. The
+// engine samples the curve, or the paper's formula if there is no curve, and sends the samples with each picture.
 
 import {about} from "../about.js";
 import {$, ARROWS, Pause, clamp, make} from "../controls.js";

@@ -49,7 +49,7 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work of a document's step. The material does not matter: every thick plate with round corners
+// Returns the kind of work of a document's step. The material does not matter, so every thick plate with round corners
 // counts as a carving. A die that was made from a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
@@ -125,7 +125,8 @@ export class KindCards {
     takeArrowKeys($("#kinds"));
   }
 
-  // Chooses a kind of work after the waiting entries. Tells the user if its plate cannot keep the current size.
+  // Chooses a kind of work, as soon as the waiting entries are taken. Tells the user if the plate of this kind cannot
+  // keep the current size.
   async choose(kind) {
     let lost = "";
     await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {

@@ -60,7 +60,8 @@ export class LettersPanel {
     takeDropsOn($("#letters"), "Drop to use this font or drawing", (file) => this.take(file));
   }
 
-  // Takes a drawing as a new ornament, or a font for the chosen text or, if no text is chosen, for the only text.
+  // Takes a file. A drawing becomes a new ornament. A font is used for the chosen text or, if no text is chosen, for
+  // the list's only text.
   take(file) {
     const {list, chosen} = this, key = keyOfFile(file.name), isText = ({kind = "text"}) => kind === "text";
     const ofSole = list.filter(isText).length === 1 ? list.findIndex(isText) : -1;
@@ -71,8 +72,9 @@ export class LettersPanel {
     this.takeFile(file, key, at);
   }
 
-  // Uploads a file and uses it in the ornament at index `at` of the list, or in a new drawing if there is none. Does
-  // not use a file that the engine cannot read, or if the user has opened another document meanwhile.
+  // Uploads a file and uses it in the ornament at index `at` of the list. If there is no ornament at that index, uses
+  // the file in a new drawing. Does not use the file if the engine cannot read it, or if the user has opened another
+  // document meanwhile.
   async takeFile(file, key, at) {
     const {document} = this.engine;
     if (!this.isShown || fileOf(this.doc.now.options)) return;

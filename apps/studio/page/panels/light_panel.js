@@ -19,7 +19,8 @@ function parse(text) {
 }
 const textOf = ({azimuth, elevation}) => `${whole(azimuth)},${clamp(Math.round(elevation), LOWEST, HIGHEST)}`;
 
-// Converts a direction of light to a position on the dial: light from the viewer is in the middle, low light outside.
+// Converts a direction of light to a position on the dial: light from the viewer is in the middle, and low light is
+// near the edge.
 const placeOf = ({azimuth, elevation}) => {
   const [x, y] = direction(azimuth, 0), far = RADIUS * (90 - elevation) / 90;
   return [far * x, -far * y];

@@ -5,8 +5,8 @@ import {$, make, unbroken} from "../controls.js";
 import {shownOptions} from "../document.js";
 import {withUnit} from "../lengths.js";
 
-// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle comes first:
-// without it, the engine knows the largest height at once.
+// Changes that may allow a higher relief, each with the name of the limit that it removes. The draft angle comes first,
+// because without a draft angle the engine knows the largest height at once.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
@@ -27,8 +27,9 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Must be called with each picture of a model; a fine picture comes when nothing moves. The largest height does not
-  // depend on the wanted height, so it is requested again only when something else changes.
+  // Must be called with the facts of each picture of a model. `isFine` is true for the pictures that come when nothing
+  // moves. The largest height does not depend on the wanted height, so it is requested again only when something else
+  // changes.
   async pictured(facts, isFine, model) {
     const isMissed = this.doc.now.isHeightLocked && !facts.is_height_met;
     this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(facts.height_mm)} high` : "");
@@ -45,8 +46,8 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // e.g. another view is being prepared
     }
     if (turn !== this.turn) return;
-    // With a draft angle the picture may be too high, because it does not wait until the largest height under that
-    // angle is known. The mark then shows that height, which steps at depth jumps cannot raise.
+    // With a draft angle, the relief in the picture may be too high, because the picture does not wait until the
+    // largest height is known. The mark then shows that largest height, which steps at depth jumps cannot raise.
     const isTooHigh = rest.draft && facts.height_mm > this.reach, isMet = facts.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, facts.height_mm) : facts.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";

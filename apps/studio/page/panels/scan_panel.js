@@ -33,8 +33,8 @@ const DOUBTFUL = "; --doubtful keep keeps them"; // end of a remark: advice for 
 const withOption = (note) => (!note.text.includes(DOUBTFUL) ? note
   : {...note, text: note.text.replace(DOUBTFUL, ""), option: "doubtful", value: "keep"});
 
-// Returns whether a note also appears beside the picture: if something was removed from the picture, or if something
-// other than the figure fills it.
+// Returns whether a note also appears beside the picture. It does if something was removed from the picture, or if
+// something other than the figure fills the picture.
 const isOffered = ({option, short}) => Boolean(short) || ["crumbs", "plane"].includes(option);
 
 const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),

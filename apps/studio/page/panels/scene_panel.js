@@ -6,7 +6,7 @@ import {typedNumber} from "../lengths.js";
 
 const nameOf = (path) => path.split(/[/\\]/).at(-1);
 const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};
-const MOST_NAMES = 3; // most models that the name of a scene mentions
+const MOST_NAMES = 3; // largest number of models that the name of a scene mentions
 
 // Returns a scene file with the models. Models without positions are placed side by side.
 export function sceneFile(models) {

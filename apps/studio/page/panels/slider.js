@@ -19,7 +19,8 @@ const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 // Returns the next multiple of a step in the given direction. The step is a tenth of the largest power of ten that does
 // not exceed the value, and at least `least`. With `isFine` it is ten times smaller.
 export function nextValue(value, direction, isFine, least) {
-  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // below 10 the step is 0.1
+  // From 10 downwards the step is 0.1. So 10 counts as slightly less if the direction is towards 0.
+  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9);
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
   const steps = value / step;
   return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
@@ -41,7 +42,8 @@ export class Slider {
     this.value = this.otherwise;
     this.rest = new Pause(onEnd, GESTURE_END_MS);
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
-    // The field does not have the type "number": browsers would read "1/8in" as 18, and could not read "2,5".
+    // The field does not have the type "number", because browsers would then read "1/8in" as 18, and could not read
+    // "2,5".
     this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
     this.name = make("span", {class: "name", title: this.help}, this.label);
     this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});

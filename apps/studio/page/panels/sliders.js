@@ -11,7 +11,7 @@ import {Slider, lockButton} from "./slider.js";
 // The sliders for the relief's shape, except sizes. They have no effect on a lithophane, which is made from brightness.
 const SHAPING = namesOf("shape").filter((name) => FIELDS[name] && optionOf(name).unit !== "MM");
 
-// The options on which the largest width on the plate depends.
+// The options that determine the largest width of the relief on its plate.
 const PLATE = namesOf("plate");
 
 // Returns the changes of the document for a slider. After a change of the height, u has to be computed again.
@@ -76,7 +76,7 @@ export class Sliders {
     this.entries.add({name, label: FIELDS[name].label, part: () => partOf(name, value)});
   }
 
-  // Changes the method. If the soft outline has the default of the old method, it gets that of the new one.
+  // Changes the method. If the soft outline has the default of the old method, it gets the default of the new method.
   changeMethod(method) {
     const {options} = this.doc.now;
     const isUntouched = options.boundary === defaultOf("boundary", options.method);

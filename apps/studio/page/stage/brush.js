@@ -143,7 +143,8 @@ export class Brush {
     return [make("path", {class: "stroke", d, "stroke-width": width.toFixed(1)}), make("path", {class: "cut", d})];
   }
 
-  // Returns SVG elements: the highlighted stroke, the outline of the brush, and that of its part with full effect.
+  // Returns SVG elements: the highlighted stroke, the outline of the brush, and the outline of the part of the brush
+  // that has its full effect.
   marks(stage) {
     this.stage = stage;
     if (!stage.facts?.relief_mm || !this.modelFacts() || stage.isAwaiting) return [];

@@ -6,7 +6,8 @@ import {$, clamp, make} from "../controls.js";
 import {isRound} from "./measure.js";
 
 const NEAR = 12; // the pointer grabs the divider within this distance, in pixels
-const ALIKE = 1e-3; // if the ratio of two zooms differs less from 1, the pictures differ by less than a pixel
+// If the ratio of two zooms differs from 1 by less than this, the pictures differ by less than a pixel.
+const ALIKE = 1e-3;
 const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // the engine's limits of the zoom
 
 export class Comparing {
@@ -22,7 +23,8 @@ export class Comparing {
   }
 
   // Shows the model on one side of a divider (isComparing) or in place of the relief (isHolding). With hasAttention the
-  // model is coloured by its attention. If `rival`, the settings of a snapshot, is not null, they replace the model.
+  // model is coloured by its attention. If `rival` is not null, it has the settings of a snapshot, and the relief with
+  // these settings takes the place of the model.
   set(how) {
     Object.assign(this, how);
     this.canvas.hidden = !this.isShown;

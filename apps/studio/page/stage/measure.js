@@ -54,7 +54,8 @@ function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, 
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
 // Returns the centre of a dimension's label, which must not cover the figure. The label of a horizontal line is above
-// the line. The label of a vertical line is outside of it or, if there is not enough space, at its lower end.
+// the line. The label of a vertical line is beside the line, on the side away from the piece. If there is not enough
+// space, the label is at the lower end of the line.
 function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
   const scale = scaleOfType(), half = widthOf(text) / 2 + STROKE, middle = [(x1 + x2) / 2, (y1 + y2) / 2];
   if (y1 === y2) return [middle[0], y1 - ROW * scale / 2];

@@ -13,7 +13,7 @@ export const KINDS = {
 export const AREAS = {line: "Line", lasso: "Lasso", region: "Region"};
 const APART = 1 / 6, LEAST_APART = 2; // least distance between positions along a stroke, in radii and in pixels
 const TOLERANCE = 1 / 40; // distance by which a simplified line may deviate from the drawn one, in radii
-const DIGITS = 1e5; // points are rounded to the figure's longer side divided by this
+const DIGITS = 1e5; // points are rounded to multiples of the figure's longer side divided by this
 
 // Returns a new name such as "Soften 2".
 function newName({label}, strokes) {

@@ -8,7 +8,7 @@ const BAR = 150; // greatest length of the bar in pixels, at the usual font size
 const APART = 64, FINE = 6; // least distance in pixels between the numbers of a ruler, and between its strokes
 const EDGE = 14, STROKE = 5;
 
-// Returns the largest of the lengths 1, 2, 5, 10 ... (in the page's unit) that is at most `mm`, in mm.
+// Returns the largest length, in mm, that does not exceed `mm` and is 1, 2, 5, 10 ... in the page's unit.
 function roundBelow(mm) {
   const units = mm / millimetresPerUnit(), power = 10 ** Math.floor(Math.log10(units));
   return [5, 2, 1].find((digit) => digit * power <= units * (1 + 1e-9)) * power * millimetresPerUnit();

@@ -14,7 +14,8 @@ import {Turning} from "./turning.js";
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const FINE_AFTER_MS = 160; // time without changes until the fine picture is requested
 const FINISHED_AFTER_MS = 500; // time without changes until the finished piece is requested
-const MOST_PIXELS = 7.9e6; // just below the engine's limit; a window on a screen of 5,120 x 2,880 has more
+// The largest number of pixels of a picture. It is just below the engine's limit; a screen of 5,120 x 2,880 has more.
+const MOST_PIXELS = 7.9e6;
 
 export class Stage {
   // Calls on.picture(facts, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
@@ -27,10 +28,10 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // while the picture keeps changing, its width and height in pixels are multiplied by this factor
-    // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` that of the last
-    // state that was drawn. The other three are numbers of the last state for which a picture was drawn or has failed:
-    // `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which shows the
-    // finished piece if one is wanted.
+    // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` is the number of the
+    // last state that was drawn. The other three are numbers of the last state for which a picture was drawn or has
+    // failed: `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which
+    // shows the finished piece if one is wanted.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // resting: the callbacks of rest()
     this.pause = new Pause(() => this.pump());
@@ -113,7 +114,7 @@ export class Stage {
       else this.adapt(performance.now() - start);
       this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
-      else if (isLast) this.changedAt = performance.now(); // another tab cancelled the picture: try again after a pause
+      else if (isLast) this.changedAt = performance.now(); // another tab cancelled the picture, so try again later
     } catch (error) {
       const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
       if (!isCancelled) this.shown = this.fine = this.finished = number;
