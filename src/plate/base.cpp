@@ -129,7 +129,9 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double half_extent = 0;  // half the plate's size perpendicular to the straight lines; a dome: its radius
+  // Half the plate's size across the straight lines of the base, such as those of a cylinder. For a dome, the largest
+  // distance of the outline from the middle.
+  double half_extent = 0;
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
     half_extent =

@@ -179,7 +179,8 @@ class Multifrontal::Subtree {
 
  private:
   struct Pending {
-    std::span<const std::uint16_t> rows;  // positions in the work vector; the first is a column of the parent
+    std::span<const std::uint16_t>
+        rows;  // positions in the work vector; the first is a column of the parent node
     std::size_t begin;
   };
 

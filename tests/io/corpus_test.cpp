@@ -356,8 +356,8 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   }
 }
 
-// All files contain the same picture, in values of different widths. After division by the largest value of
-// the width, the pictures are equal up to rounding.
+// All files contain the same picture, in values of different numbers of bits. After division by the largest
+// value of these bits, the pictures are equal up to rounding.
 TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
   const fs::path depth = folder_ / "image-rs+image-tiff/tests/libtiffpic/depth";
   const auto finest = depths_at(depth / "flower-minisblack-16.tif");

@@ -94,7 +94,7 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
   const MadeRelief it = made(Form::lithophane);
   const Box box = Box::of(it.solid.points);
-  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // the plate is so thin that light passes
+  EXPECT_NEAR(box.max.z(), .8 + 4, 1e-6);  // .8 mm, through which light passes, and the relief of 4 mm
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
   // The lamp is at the upper left. So the plate is thinner at the ball's upper left than at its lower right.
   const HeightFieldMesh front = lithophane_of(test::sphere(20000, 1));

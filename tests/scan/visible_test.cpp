@@ -94,7 +94,8 @@ TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
   const Cloud both = test::joined(test::sheet(dense, .1, 0, 11), test::sheet(sparse, 1, 0, 12));
   const VisiblePoints found = find_visible(both, measure_spacing(both));
   EXPECT_EQ(found.removed, 0U);
-  EXPECT_GT(share(found.points, 0, dense), .97);  // some points coincide at this scale
+  EXPECT_GT(share(found.points, 0, dense),
+            .97);  // less than 1: points that coincide within a fraction of rho count once
   EXPECT_GT(share(found.points, dense, dense + sparse), .99);
 }
 

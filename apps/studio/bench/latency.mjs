@@ -21,7 +21,7 @@ const MOVEMENTS = {
   // The brush moves in a circle and never stops, because an event near the last position paints nothing and so causes
   // no picture.
   brush: {tool: "Brush", isRound: true, from: 0.45, to: 0.6},
-  handle: {isHandle: true, from: 0.45, to: 0.6}, // moves a text on an arc; the page draws its outlines
+  handle: {isHandle: true, from: 0.45, to: 0.6}, // drags a text that is set on an arc; the page itself draws the text's outlines
 };
 
 const found = await findBrowser();

@@ -191,7 +191,7 @@ export function engineOptions(step) {
     if (isThere && (optionOf(name)?.is_stated || value !== FIRST.options[name])) options[name] = value;
   }
   options.height = Math.round(options.height * 1e4) / 1e4;
-  if ("height-of-diagonal" in options) delete options.height; // the first picture will convert it to mm
+  if ("height-of-diagonal" in options) delete options.height; // the first picture has the height in mm that follows from the share
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];

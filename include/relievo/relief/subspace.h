@@ -25,11 +25,11 @@ struct SubspaceOptions {
 // Returns z_ref: the heights of all points from (9) with w_k = 1. `system` is the system of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system. The height of any point is z = ratio z_ref + offset. z_ref is
-// the reference height, the solution of (9) with w_k = 1. The ratio is the compressed height divided by the
-// reference height. The system of the control points is solved for both heights. The offset is the part of
-// the compressed height that a smooth ratio cannot represent, mainly where z_ref crosses 0. Multilevel
-// B-splines extend ratio and offset to all points.
+// Control points with their factored system. At the control points, (9) is solved twice: with w_k = 1 for
+// the reference height z_ref, and with the weights w_k for the compressed height. The ratio is a smooth
+// approximation of the compressed height divided by z_ref. The offset is the rest of the compressed height,
+// mainly where z_ref crosses 0. Multilevel B-splines extend ratio and offset to all points, and the height of
+// any point is z = ratio z_ref + offset.
 //
 // The heights differ from those of exact mode by about 1 % of the relief's height (root mean square), or by 1
 // to 4 % in layered reliefs. Low reliefs differ most (docs/decisions/subspace.md). Const calls may run

@@ -21,8 +21,8 @@ float turn_between(const Vec2f& a, const Vec2f& b) {
                    ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
-// Returns whether the curvature over three consecutive cells is even, and so large that facets of this angle
-// need smaller cells.
+// Returns whether the surface bends evenly over three consecutive cells, and by more than `facet_angle` per
+// cell, so that the cells must be smaller. Returns false at a crease.
 bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
   const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
   return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int most_insertion_rounds = 200;
 constexpr std::size_t grain = 8192;  // points or edges that one task measures
-// The tolerance of triangles that are steeper than allowed. It is smaller than files can store. So such triangles are
-// divided until they are only as steep as the original's triangles, which keep to the slope limit.
+// The tolerance of triangles that exceed the slope limit. It is practically zero, less than files can store. So these
+// triangles are divided until they follow the original's triangles, which do not exceed the limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
 // A position where a triangle of the approximation exceeds its tolerance. It is a point of the

@@ -65,7 +65,8 @@ class Fans {
 // Least height of a triangle, as a share of the front's size. This share of the size is 8 to 16 units in
 // the last place of the coordinates.
 constexpr double thinnest = 0x1p-20;
-// A flip may change the surface by at most this distance in z, unless rounding turns the triangle over.
+// A flip may move the surface by at most this distance in z. The limit does not apply if rounding the coordinates turns
+// the thin triangle over.
 constexpr double most_moved_mm = 1e-3;
 
 // Flips edges one by one. Each flip makes the thinner of two triangles wider, so the loop ends.

@@ -15,7 +15,7 @@ namespace {
 // Patches with fewer points are small. Rows of points, which extend 3 rho inwards from each side, would
 // replace all of their points.
 constexpr std::size_t least_patch = 60;
-// A small patch is removed if it is behind at this share, or more, of the jumps around it.
+// A small patch is removed if it is the rear side of at least this share of the depth jumps around it.
 constexpr double least_behind = .7;
 
 // The longest edge that connects points, in rho (sampling distances). Longer edges cross regions without points.
