@@ -6,8 +6,6 @@
 
 #include "batch/finish.h"
 #include "batch/memory_need.h"
-#include "batch/output_folder.h"
-#include "batch/processes.h"
 #include "batch/run.h"
 #include "cli/batch_progress.h"
 #include "cli/commands.h"
