@@ -4,13 +4,11 @@ import {$, ARROWS, Pause, clamp, make, pair, textField} from "./controls.js";
 import {hasScale} from "./document.js";
 import {isUnfinished} from "./inputs.js";
 import {typedNumber} from "./lengths.js";
-import {angles, degrees, direction} from "./lights.js";
+import {angles, degrees, direction, whole} from "./lights.js";
 import {GESTURE_END_MS} from "./slider.js";
 
 const LOWEST = 5, HIGHEST = 85; // degrees of elevation that the engine takes
 const RADIUS = 46; // of the dial, in its own units
-
-const whole = (azimuth) => ((Math.round(azimuth) % 360) + 360) % 360;
 
 // Returns azimuth and elevation of the option's text "AZIMUTH,ELEVATION".
 function parse(text) {
