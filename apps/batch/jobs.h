@@ -1,16 +1,35 @@
-// Lists the scans of a catalogue (a folder or a table), each with the options of its relief. Tested by
-// tests/cli/batch_jobs_test.cpp.
+// Lists the scans of a catalogue, each with the options of its relief, and reads tables in CSV, as spreadsheets save
+// them. Tested by tests/cli/batch_jobs_test.cpp.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/core/error.h"
 
 namespace relievo::app::batch {
+
+struct TableRow {
+  std::size_t line = 0;  // number of the line in the file at which the row begins
+  std::vector<std::string> cells;
+};
+
+struct Table {
+  std::vector<std::string> columns;  // the cells of the first row
+  std::vector<TableRow> rows;        // each row has a cell for every column
+};
+
+// Parses the table in the text of a file. Error messages call the file `name`. The separator is a comma, a semicolon
+// or a tab, whichever occurs first in the first row. A cell in quotation marks may contain separators and line
+// breaks; a quotation mark in it is doubled. Missing cells at the end of a row are empty. Rows in which all
+// cells are empty are left out. Errors: kind input, with the line's number, for a table without columns, a
+// column without a name, two columns with the same name, more cells than columns, and an unclosed quotation
+// mark.
+Result<Table> read_table(std::string_view text, const std::string& name);
 
 // Maps the flags of `make`, without dashes, to their values as typed.
 using Options = std::map<std::string, std::string>;
@@ -28,7 +47,7 @@ struct Catalogue {
   Options common;       // options of all scans; the table may override them for one scan
 };
 
-// Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table (see table.h), row
+// Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table, row
 // by row. In a folder that contains clouds or meshes, pictures count as textures and are left out. A table
 // has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a
 // column for each option for which is_option() returns true. For an empty cell, the option's value in

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "batch/memory_need.h"
-#include "batch/output_folder.h"
 #include "common/export_file.h"
 #include "common/files.h"
 #include "common/project.h"

@@ -13,8 +13,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "batch/output_folder.h"
+#include "common/descriptor.h"
 #include "common/files.h"
+#include "common/owned_folder.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 
@@ -45,6 +46,18 @@ bool ends_in_a_line(const Descriptor& file) {
   const off_t end = ::lseek(file.number(), 0, SEEK_END);
   char last = '\n';
   return end <= 0 || (::pread(file.number(), &last, 1, end - 1) == 1 && last == '\n');
+}
+
+constexpr std::string_view owner = "batch";
+
+Result<void> check_ownership(Ownership found, const std::string& folder) {
+  if (found == Ownership::of_others)
+    return option_error(
+        "output",
+        cat("expected an empty folder, or one of relievo batch, found other files in '", folder, "'"));
+  if (found == Ownership::unusable)
+    return system_error(ErrorKind::output, folder, "expected a folder that can be written to");
+  return {};
 }
 
 }  // namespace
@@ -170,6 +183,19 @@ std::string time_now() {
                 utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
                 static_cast<int>(ms % 1000));
   return text.data();
+}
+
+Result<void> check_output_folder(const std::string& outputs) {
+  return check_ownership(ownership_of(outputs, owner), outputs);
+}
+
+Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner) {
+  RELIEVO_CHECK(check_ownership(own_folder(outputs, owner), outputs));
+  if (inner.empty()) return {};
+  std::error_code failed;
+  std::filesystem::create_directories(outputs / inner, failed);
+  errno = failed.value();
+  return check_ownership(failed ? Ownership::unusable : Ownership::owned, outputs);
 }
 
 }  // namespace relievo::app::batch

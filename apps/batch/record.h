@@ -1,8 +1,9 @@
-// Defines the record of a job's outcome, and the journal of all records. An interrupted run continues from
-// the journal. Tested by tests/cli/batch_test.cpp.
+// Defines the folder of the outputs, the record of a job's outcome, and the journal of all records. An interrupted run
+// continues from the journal. Tested by tests/cli/batch_test.cpp, tests/cli/foreign_files and scripts/fault-campaign.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -10,8 +11,17 @@
 #include <string_view>
 
 #include "common/descriptor.h"
+#include "relievo/core/error.h"
 
 namespace relievo::app::batch {
+
+// Checks that a batch may write into the folder, and changes nothing. Errors: kind option if the folder has
+// files that no batch made; kind output if it cannot be read.
+Result<void> check_output_folder(const std::string& outputs);
+
+// Creates the folder, marks it as the folder of a batch, and creates the folder `inner` inside it. Each job
+// calls this again, as the user may remove the folders during a run. Errors: those of check_output_folder().
+Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner = {});
 
 struct Record {
   std::string name = {}, file = {};

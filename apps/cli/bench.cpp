@@ -8,7 +8,6 @@
 #include "cli/commands.h"
 #include "cli/flags.h"
 #include "cli/frame_figures.h"
-#include "cli/input_flags.h"
 #include "common/files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"

@@ -89,4 +89,69 @@ void add_flags(CLI::App& command, OptionValues& values,
   }
 }
 
+void add_input_flags(CLI::App& command, InputTexts& texts) {
+  add_flags(command, texts.depth, [](const OptionRow& option) { return !option.is_of_relief(); });
+  command
+      .add_option("--stream-above", texts.stream_above_mb,
+                  "size from which binary PLY, PCD and LAS are read piece by piece")
+      ->type_name("MB")
+      ->capture_default_str();
+}
+
+Result<InputArguments> parse_input_texts(const InputTexts& texts) {
+  OptionValues values = texts.depth;
+  RELIEVO_CHECK(take_text_of_file("camera", {}, values));
+  RELIEVO_TRY(const DepthOptions depth, parse_depth(values));
+  RELIEVO_TRY(const bool keeps_doubtful, parse_doubtful(values));
+  InputArguments arguments{depth, texts.stream_above_mb};
+  arguments.are_pipes_fine = true;
+  arguments.keeps_doubtful = keeps_doubtful;
+  return arguments;
+}
+
+void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
+  command
+      .add_option("input", arguments.paths,
+                  "point cloud, mesh or depth image, several of them, or a scene (JSON), as for make")
+      ->required()
+      ->type_name("INPUT");
+  const auto is_of_view = [](const OptionRow& option) { return option.stage == OptionStage::view; };
+  add_flags(command, arguments.view, is_of_view, [](const OptionRow&) { return "as for make"; });
+  add_input_flags(command, arguments.in);
+}
+
+Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress) {
+  RELIEVO_TRY(const InputArguments in, parse_input_texts(arguments.in));
+  RELIEVO_TRY(const ReliefOptions options, parse_options(arguments.view));
+  const PointsWanted wanted{options.view};
+  RELIEVO_TRY(const Scene scene, read_scene(arguments.paths, in, wanted, progress));
+  const View chosen = chosen_view(scene, options.view);
+  RELIEVO_TRY(ViewSample sample, sample_for_view(scene, chosen, {}, progress));
+  return SampledView{std::move(sample), chosen};
+}
+
+void add_make_options(CLI::App& command, MakeOptions& options) {
+  command
+      .add_option("--units", options.units,
+                  "mm or in: of lengths without a unit of their own, and of the solid's coordinates")
+      ->type_name("UNIT")
+      ->capture_default_str();
+  add_number(command, "--heightmap-size", options.files.heightmap_px, CLI::Range(16, 16384),
+             "longer side of the height map in pixels [16 to 16384]");
+  for (const HeightMapFlag& flag : height_map_flags)
+    command.add_option(cat("--", flag.name), options.files.map.*flag.text, flag.help)->type_name(flag.unit);
+  add_number(command, "--preview-size", options.files.preview_px, CLI::Range(16, 4096),
+             "longer side of each of the preview's two views in pixels [16 to 4096]");
+  command
+      .add_option("--base-image", options.order.base_image_path,
+                  "height map that the relief lies on, bright is high: PNG or TIFF")
+      ->type_name("B.png");
+  add_flags(command, options.order.values, &OptionRow::is_of_relief);
+  const auto refuse = [](const std::string&) {
+    throw CLI::ValidationError("--surface", "expected --finish, its new name");
+  };
+  command.add_option_function<std::string>("--surface", refuse)->group("");
+  add_input_flags(command, options.in);
+}
+
 }  // namespace relievo::app::cli

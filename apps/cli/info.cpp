@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/input_flags.h"
+#include "cli/flags.h"
 #include "cli/terminal.h"
 #include "common/files.h"
 #include "relievo/core/text.h"

@@ -2,8 +2,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "cli/huge_pages.h"
-#include "cli/out_of_memory.h"
+#include "cli/memory.h"
 #include "cli/program.h"
 #include "common/memory_reserve.h"
 #include "common/temporary_file.h"

@@ -6,7 +6,6 @@
 
 #include "cli/commands.h"
 #include "cli/flags.h"
-#include "cli/make_options.h"
 #include "cli/terminal.h"
 #include "common/export_file.h"
 #include "common/files.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/height_map_file.h"
+#include "common/export_file.h"
 #include "common/make_order.h"
 #include "common/output_files.h"
 #include "relievo/core/length.h"

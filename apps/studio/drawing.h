@@ -12,7 +12,7 @@
 #include "relievo/job.h"
 #include "relievo/ornament_places.h"
 #include "relievo/picture/preview.h"
-#include "studio/solid_section.h"
+#include "studio/piece.h"
 
 namespace relievo::app::studio {
 

@@ -1,6 +1,7 @@
-// Makes finished pieces of a model, as they are exported.
+// Makes finished pieces of a model, as they are exported, and sections of them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -12,12 +13,24 @@
 #include "relievo/core/progress.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/preview.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo::app::studio {
 
 // Returns the height of the relief in a piece. This is the requested height, unless the piece has the surface that a
 // milling tool leaves: then the relief may be lower, and its measured height is returned.
 double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
+
+// A line across the front. Its ends are in mm from the centre of the relief or, in a section of a piece, from
+// the centre of the piece.
+struct SectionLine {
+  Vec2 from, to;
+  std::size_t samples = 400;  // at least 2
+};
+
+// Returns the heights of the solid's highest surface above its ground, in mm, at equal distances along the
+// line. Outside the solid, the height is that of its lowest point.
+std::vector<float> section_of(const Solid& solid, const SectionLine& line);
 
 // A prepared model with its unique number.
 struct NumberedModel {

@@ -1,6 +1,10 @@
 #include "studio/server.h"
 
+#include <sys/random.h>
+
+#include <array>
 #include <atomic>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -10,7 +14,6 @@
 #include "studio/http_answers.h"
 #include "studio/http_server.h"
 #include "studio/page_files.h"
-#include "studio/request_guard.h"
 #include "studio/requests.h"
 
 namespace relievo::app::studio {
@@ -21,10 +24,78 @@ using httplib::Request;
 using httplib::Response;
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_json = 4U << 20;
+constexpr std::size_t most_json = 4U << 20, most_path = 512;
 constexpr int most_waiting = 32, most_pages = 8;
 // The largest number of simultaneous uploads: a quarter of the threads, so that the others can answer requests.
 constexpr int most_files = 24;
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
+// Compares in constant time, so that the time does not reveal how much of a guessed token is right.
+bool is_equal(std::string_view a, std::string_view b) {
+  unsigned different = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    different |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+  return different == 0;
+}
+
+// Returns whether a host is this machine. The port does not matter, since an ssh tunnel may use another one.
+bool is_here(const std::string& host) {
+  const std::size_t colon = host.rfind(':');
+  const std::string_view name = std::string_view(host).substr(0, colon);
+  if (colon == std::string::npos || (name != "127.0.0.1" && name != "localhost")) return false;
+  const std::string_view port = std::string_view(host).substr(colon + 1);
+  return !port.empty() && port.size() <= 5 && port.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+// Authorises requests: only the studio's own page on this machine may send them, and they must contain a random
+// token, which is part of the page's address.
+class RequestGuard {
+ public:
+  // Uses the token of a former run. If `former_token` is not a valid token, makes a new random one.
+  explicit RequestGuard(const std::string& former_token)
+      : token_(former_token.size() == 32 ? former_token : random_token()) {}
+
+  void set_port(int port) { port_ = port; }
+  const std::string& token() const { return token_; }
+  std::string address() const { return cat("http://127.0.0.1:", port_, "/", token_, "/"); }
+
+  // Returns the part of the path after the token. Refuses a request with a wrong host, origin or token, and
+  // then returns nothing.
+  std::optional<std::string> admit(const Request& request, Response& response) const {
+    const auto say = [&](int status, const char* text) -> std::optional<std::string> {
+      refuse(response, status, text);
+      return std::nullopt;
+    };
+    if (request.path.size() > most_path) return say(414, "the address is too long");
+    if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
+      return say(403, "this server answers for this machine only");
+    const std::string own_origin = "http://" + request.get_header_value("Host");
+    if (request.has_header("Origin") && request.get_header_value("Origin") != own_origin)
+      return say(403, "this server answers its own page only");
+    const std::size_t slash = request.path.find('/', 1);
+    const std::string_view given = std::string_view(request.path).substr(0, slash);
+    if (!is_equal(given, "/" + token_)) return say(403, "open the address that `relievo studio` printed");
+    if (slash == std::string::npos) {
+      response.set_redirect("/" + token_ + "/", 308);
+      return std::nullopt;
+    }
+    return request.path.substr(slash + 1);
+  }
+
+ private:
+  std::string token_;
+  int port_ = 0;
+};
 
 class ScopedCount {
  public:

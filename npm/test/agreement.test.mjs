@@ -27,7 +27,7 @@ const NOTO = "/usr/share/fonts/truetype/noto", FONTS = [
 ];
 
 async function compare(t, scan, options, flags, files = {}) {
-  const theirs = path.join(temporaryFolder(t), "native.ply");
+  const theirs = path.join(temporaryFolder(), "native.ply");
   run(native, ["make", scan, "-o", theirs, "--quiet", ...flags]);
   const ours = await relievo.make({ [path.basename(scan)]: new Uint8Array(fs.readFileSync(scan)), ...files }, options);
   t.diagnostic(`${path.basename(scan)}: ${ours.report.visible_points} visible points`);
@@ -38,14 +38,14 @@ const skip = native && fs.existsSync(native) ? false : "SKIPPED: the native prog
 
 for (const [name, options, flags] of SAMPLES)
   test(`${name} ${flags.join(" ")}`, { skip }, async (t) => {
-    const scan = path.join(temporaryFolder(t), `${name}.ply`);
+    const scan = path.join(temporaryFolder(), `${name}.ply`);
     run(native, ["sample", name, "-o", scan, "--points", "60000"]);
     await compare(t, scan, options, flags);
   });
 
 for (const [font, text] of FONTS.filter(([file]) => fs.existsSync(file)))
   test(`a text in ${path.basename(font)}`, { skip }, async (t) => {
-    const scan = path.join(temporaryFolder(t), "shell.ply"), name = path.basename(font);
+    const scan = path.join(temporaryFolder(), "shell.ply"), name = path.basename(font);
     run(native, ["sample", "shell", "-o", scan, "--points", "20000"]);
     await compare(t, scan, { heightMm: 2, text, font: name }, ["--height", "2", "--text", text, "--font", font],
       { [name]: new Uint8Array(fs.readFileSync(font)) });

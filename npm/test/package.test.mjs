@@ -3,9 +3,8 @@ import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
-import { after, before, test } from "node:test";
-import os from "node:os";
-import { packageFolder, relievo } from "./support.mjs";
+import { before, test } from "node:test";
+import { packageFolder, relievo, temporaryFolder } from "./support.mjs";
 
 const tools = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "node_modules");
 let folder;
@@ -14,15 +13,16 @@ function node(args) {
   return spawnSync(process.execPath, args, { cwd: folder, encoding: "utf8" });
 }
 
+const program = (args) => node([path.join(folder, "node_modules/.bin/relievo"), ...args]);
+
 before(async () => {
-  folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-install-"));
+  folder = temporaryFolder();
   execFileSync("npm", ["pack", packageFolder, "--silent", "--pack-destination", folder]);
   const [tarball] = fs.readdirSync(folder);
   fs.writeFileSync(path.join(folder, "package.json"), JSON.stringify({ private: true, type: "module" }));
   execFileSync("npm", ["install", "--offline", "--no-audit", "--no-fund", "--silent", `./${tarball}`], { cwd: folder });
   fs.writeFileSync(path.join(folder, "scan.ply"), await relievo.sample("shell", { points: 20000 }));
 });
-after(() => fs.rmSync(folder, { recursive: true, force: true }));
 
 test("README's example runs", () => {
   const readme = fs.readFileSync(path.join(folder, "node_modules/relievo/README.md"), "utf8");
@@ -43,8 +43,7 @@ test("the licences of all libraries inside are part of the package", () => {
 });
 
 test("the program makes a relief with the native flags", () => {
-  const program = path.join(folder, "node_modules/.bin/relievo");
-  const { status, stderr } = node([program, "make", "scan.ply", "-o", "medal.stl", "--height", "2", "--outline=circle", "--report", "r.json", "--heightmap", "h.png"]);
+  const { status, stderr } = program(["make", "scan.ply", "-o", "medal.stl", "--height", "2", "--outline=circle", "--report", "r.json", "--heightmap", "h.png"]);
   assert.equal(status, 0, stderr);
   assert.match(stderr, /medal\.stl: \d+ of 20000 points are visible in this view, height 2 mm/);
   const report = JSON.parse(fs.readFileSync(path.join(folder, "r.json")));
@@ -53,12 +52,12 @@ test("the program makes a relief with the native flags", () => {
 });
 
 test("fonts and lists of ornaments are files beside the scan, in the program and in calls", async () => {
-  const program = path.join(folder, "node_modules/.bin/relievo"), list = "list.json";
+  const list = "list.json";
   const font = fs.readFileSync(new URL("../../src/lettering/fonts/NotoSerif-Bold.subset.ttf", import.meta.url));
   const ornaments = JSON.stringify([{ text: "LEX", font: "own.ttf" }, { kind: "line" }]);
   fs.writeFileSync(path.join(folder, "own.ttf"), font);
   fs.writeFileSync(path.join(folder, list), ornaments);
-  const { status, stderr } = node([program, "make", "scan.ply", "-o", "list.stl", "--margin", "9", "--ornaments", list]);
+  const { status, stderr } = program(["make", "scan.ply", "-o", "list.stl", "--margin", "9", "--ornaments", list]);
   assert.equal(status, 0, stderr);
   const made = fs.readFileSync(path.join(folder, "list.stl"));
   const files = { "scan.ply": fs.readFileSync(path.join(folder, "scan.ply")), "own.ttf": font };
@@ -66,12 +65,11 @@ test("fonts and lists of ornaments are files beside the scan, in the program and
   assert.ok((await solid({ [list]: new TextEncoder().encode(ornaments) }, { ornaments: list })).equals(made));
   assert.ok((await solid({}, { ornaments: '[{"kind": "line"}]', text: "LEX", font: "own.ttf" })).equals(made));
   assert.ok(!(await solid({}, { ornaments: '[{"kind": "line"}]' })).equals(made));
-  const alone = node([program, "make", "scan.ply", "-o", "alone.stl", "--text", "LEX", "--font", "own.ttf"]);
+  const alone = program(["make", "scan.ply", "-o", "alone.stl", "--text", "LEX", "--font", "own.ttf"]);
   assert.equal(alone.status, 0, alone.stderr);
 });
 
 test("the program fails with one line and the exit codes of the native program", () => {
-  const program = path.join(folder, "node_modules/.bin/relievo");
   fs.writeFileSync(path.join(folder, "broken.ply"), "ply\nformat ascii 1.0\n");
   fs.mkdirSync(path.join(folder, "below"));
   for (const [args, code, message] of [
@@ -89,7 +87,7 @@ test("the program fails with one line and the exit codes of the native program",
     [["make"], 2, /^relievo: expected input, found none/],
     [["mak"], 2, /found 'mak', the nearest is make; see relievo --help/],
     [[], 2, /^relievo: expected a command such as make, found none/]]) {
-    const { status, stderr } = node([program, ...args]);
+    const { status, stderr } = program(args);
     assert.equal(status, code, `${args.join(" ")}: ${stderr}`);
     assert.match(stderr, message);
     assert.equal(stderr.trim().split("\n").length, 1, stderr);
@@ -98,14 +96,13 @@ test("the program fails with one line and the exit codes of the native program",
 });
 
 test("the program helps", () => {
-  const program = path.join(folder, "node_modules/.bin/relievo");
   for (const args of [["--help"], ["make", "-h"], ["make", "--help"]]) {
-    const { status, stdout, stderr } = node([program, ...args]);
+    const { status, stdout, stderr } = program(args);
     assert.equal(status, 0, stderr);
     assert.match(stdout, /^Usage: relievo make INPUT/);
   }
   const scan = path.join("..", path.basename(folder), "scan.ply");
-  assert.equal(node([program, "make", scan, "-o", "up.stl", "--quiet"]).status, 0);
+  assert.equal(program(["make", scan, "-o", "up.stl", "--quiet"]).status, 0);
 });
 
 test("a worker makes a relief, and can be ended", () => {

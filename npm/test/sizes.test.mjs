@@ -26,7 +26,7 @@ test("the page keeps to its size", (t) => {
 });
 
 test("the tarball keeps to its size and has no dependencies", (t) => {
-  const folder = temporaryFolder(t);
+  const folder = temporaryFolder();
   execFileSync("npm", ["pack", packageFolder, "--silent", "--pack-destination", folder]);
   const [name] = fs.readdirSync(folder);
   const { size } = fs.statSync(path.join(folder, name));

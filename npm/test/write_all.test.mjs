@@ -1,9 +1,9 @@
 // Tests that the command line of the package writes its outputs and changes no other file.
 import assert from "node:assert/strict";
 import fs from "node:fs";
-import os from "node:os";
 import path from "node:path";
 import { test } from "node:test";
+import { temporaryFolder } from "../../apps/studio/tests/support.mjs";
 import { writeAll } from "../bin/write_all.js";
 
 // Returns modes, times and contents of all files in a folder except those in `made`.
@@ -14,9 +14,8 @@ function seen(folder, made) {
   });
 }
 
-test("files of others stay, whatever their names are and whether the outputs could be written", (t) => {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-npm-"));
-  t.after(() => fs.rmSync(folder, { recursive: true, force: true }));
+test("files of others stay, whatever their names are and whether the outputs could be written", () => {
+  const folder = temporaryFolder();
   const file = (name) => path.join(folder, name);
   const names = ["a.stl.relievo-ABCDEF", `a.stl.relievo-${process.pid}`, `a.stl.relievo-${process.pid}-0`,
     `b.png.relievo-${process.pid}`];

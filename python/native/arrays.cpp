@@ -59,6 +59,14 @@ void with_reader(const NamedArray& given, F&& f) {
   return with_reader({given.name, py::array(array.attr("astype")(plain))}, std::forward<F>(f));
 }
 
+// Calls f(row, at) for each row, where at(row, column) returns a number.
+template <typename F>
+void for_each_row(const NamedArray& given, F&& f) {
+  with_reader(given, [&](const auto& at) {
+    for (py::ssize_t row = 0; row < given.array.shape(0); ++row) f(row, at);
+  });
+}
+
 template <int n>
 void check_shape(const NamedArray& given) {
   const py::array& array = given.array;
@@ -88,9 +96,8 @@ template <int n>
 std::vector<Eigen::Matrix<double, n, 1>> rows_of(const NamedArray& given) {
   check_shape<n>(given);
   std::vector<Eigen::Matrix<double, n, 1>> rows(static_cast<std::size_t>(given.array.shape(0)));
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(rows); ++i)
-      rows[static_cast<std::size_t>(i)] = finite_row<n>(given, i, at);
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    rows[static_cast<std::size_t>(i)] = finite_row<n>(given, i, at);
   });
   return rows;
 }
@@ -122,12 +129,10 @@ std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size) {
   check_shape<3>(given);
   check_rows(given, size);
   std::vector<Vec3f> normals(size);
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(normals); ++i) {
-      Vec3f& normal = normals[static_cast<std::size_t>(i)];
-      normal = unit_normal(finite_row<3>(given, i, at));
-      if (normal.isZero(0)) raise_row(given, i, "expected a direction, found zeros");
-    }
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    Vec3f& normal = normals[static_cast<std::size_t>(i)];
+    normal = unit_normal(finite_row<3>(given, i, at));
+    if (normal.isZero(0)) raise_row(given, i, "expected a direction, found zeros");
   });
   return normals;
 }
@@ -140,14 +145,13 @@ std::vector<Colour> colours_of(const NamedArray& given, std::size_t size) {
   if (!is_bytes && given.array.dtype().kind() != 'f')
     raise_input(given.name, "dtype", cat("expected uint8 or fractions, found ", dtype_text(given.array)));
   std::vector<Colour> colours(size);
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(colours); ++i)
-      for (int c = 0; c < 3; ++c) {
-        const double value = static_cast<double>(at(i, c)) * (is_bytes ? 1 : 255);
-        if (!(value >= 0 && value <= 255)) raise_row(given, i, "expected colours from 0 to 1, found others");
-        colours[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)] =
-            static_cast<std::uint8_t>(value + .5);
-      }
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    for (int c = 0; c < 3; ++c) {
+      const double value = static_cast<double>(at(i, c)) * (is_bytes ? 1 : 255);
+      if (!(value >= 0 && value <= 255)) raise_row(given, i, "expected colours from 0 to 1, found others");
+      colours[static_cast<std::size_t>(i)][static_cast<std::size_t>(c)] =
+          static_cast<std::uint8_t>(value + .5);
+    }
   });
   return colours;
 }
@@ -157,13 +161,11 @@ std::vector<Triangle> triangles_of(const NamedArray& given, std::size_t size) {
   check_shape<3>(given);
   std::vector<Triangle> triangles;
   triangles.reserve(static_cast<std::size_t>(given.array.shape(0)));
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < given.array.shape(0); ++i) {
-      Triangle t;
-      for (int c = 0; c < 3; ++c)
-        t[static_cast<std::size_t>(c)] = index_of(given, i, static_cast<std::int64_t>(at(i, c)), size);
-      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
-    }
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    Triangle t;
+    for (int c = 0; c < 3; ++c)
+      t[static_cast<std::size_t>(c)] = index_of(given, i, static_cast<std::int64_t>(at(i, c)), size);
+    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
   });
   if (triangles.empty()) raise_input(given.name, "", "expected triangles of three points, found none");
   return triangles;
@@ -173,9 +175,8 @@ std::vector<Index> indices_of(const NamedArray& given, std::size_t size) {
   check_whole(given);
   if (given.array.ndim() != 1) raise_shape(given, "(N,)");
   std::vector<Index> indices(static_cast<std::size_t>(given.array.shape(0)));
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(indices); ++i)
-      indices[static_cast<std::size_t>(i)] = index_of(given, i, static_cast<std::int64_t>(at(i, 0)), size);
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    indices[static_cast<std::size_t>(i)] = index_of(given, i, static_cast<std::int64_t>(at(i, 0)), size);
   });
   return indices;
 }
@@ -184,13 +185,10 @@ std::vector<float> weights_of(const NamedArray& given, std::size_t size) {
   if (given.array.ndim() != 1) raise_shape(given, "(N,)");
   check_rows(given, size);
   std::vector<float> weights(size);
-  with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(weights); ++i) {
-      const auto weight = static_cast<float>(at(i, 0));
-      if (!(weight > 0 && weight <= 1))
-        raise_row(given, i, cat("expected a weight in (0, 1], found ", weight));
-      weights[static_cast<std::size_t>(i)] = weight;
-    }
+  for_each_row(given, [&](py::ssize_t i, const auto& at) {
+    const auto weight = static_cast<float>(at(i, 0));
+    if (!(weight > 0 && weight <= 1)) raise_row(given, i, cat("expected a weight in (0, 1], found ", weight));
+    weights[static_cast<std::size_t>(i)] = weight;
   });
   return weights;
 }

@@ -4,7 +4,6 @@
 
 #include "native/call.h"
 #include "native/errors.h"
-#include "native/inputs.h"
 #include "native/options.h"
 #include "native/relief.h"
 #include "relievo/core/version.h"

@@ -1,4 +1,4 @@
-// Converts Python keyword arguments to options.
+// Converts Python arguments to options and inputs.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "common/read_inputs.h"
+#include "common/make_order.h"
 #include "relievo/option_table.h"
 
 namespace relievo::python {
@@ -23,6 +23,11 @@ OptionValues values_of(const pybind11::dict& given);
 // Raises the errors of values_of(), and relievo.Error.
 app::InputArguments input_arguments(const pybind11::dict& given);
 
+// Sets the order's inputs from a list of paths, (bytes, name) tuples and models made from arrays. A thread
+// that has Python's lock must destroy the last copy of the order.
+void take_sources(const pybind11::list& list, app::MakeOrder& order);
+
 void add_options(pybind11::module_& module);
+void add_inputs(pybind11::module_& module);
 
 }  // namespace relievo::python

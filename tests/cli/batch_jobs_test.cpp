@@ -5,7 +5,6 @@
 
 #include "batch/finish.h"
 #include "batch/memory_need.h"
-#include "batch/table.h"
 #include "relievo/core/text.h"
 #include "support/cli_folder.h"
 

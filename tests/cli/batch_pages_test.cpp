@@ -1,7 +1,6 @@
 // Tests the contact sheet, and the parts of the index page.
-#include "batch/caption.h"
 #include "batch/contact_sheet.h"
-#include "batch/index_page.h"
+#include "batch/finish.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"

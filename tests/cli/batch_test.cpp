@@ -4,7 +4,6 @@
 
 #include "batch/finish.h"
 #include "batch/memory_need.h"
-#include "batch/processes.h"
 #include "batch/run.h"
 #include "relievo/core/text.h"
 #include "support/cli_folder.h"

@@ -1,5 +1,5 @@
-// Stores documents, scans and the studio's address as files in one folder. Tested by
-// apps/studio/tests/documents.test.mjs.
+// Stores documents, scans and the studio's address as files in one folder, which it chooses and reserves. Tested
+// by apps/studio/tests/documents.test.mjs and tests/cli/foreign_files.
 #pragma once
 
 #include <optional>
@@ -7,10 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "studio/disk/state_folder.h"
+#include "common/descriptor.h"
 #include "studio/store.h"
 
 namespace relievo::app::studio {
+
+struct StateFolder {
+  std::string path;
+  std::string notice;    // message for the user of the page, without a path; usually empty
+  std::string detail;    // sentence with the path, only for the terminal
+  bool is_ours = false;  // false: the studio must not read or change anything in the folder
+  Descriptor lock{-1};   // while this file is open, no other studio can take the folder
+};
+
+// Reserves the folder `chosen` for this studio, or the default folder if `chosen` is empty. If another studio
+// uses it, tries the same name with -2, -3 and so on. Never takes a folder with files of other programs: if
+// the default folder has such files, tries the next name. Errors: kind option if `chosen` has such files.
+Result<StateFolder> take_state_folder(const std::string& chosen);
 
 // The last address of the studio. The next run uses this address again, so that pages that are still open
 // find the studio.

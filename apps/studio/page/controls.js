@@ -2,6 +2,12 @@
 
 export const $ = (selector, root = document) => root.querySelector(selector);
 
+// Returns the place of a pointer's event in an element, in pixels from its upper left corner.
+export function placeIn(element, {clientX, clientY}) {
+  const {left, top} = element.getBoundingClientRect();
+  return [clientX - left, clientY - top];
+}
+
 // Creates an element: make("button", {class: "quiet", "aria-label": "Undo", onclick: f}, ...children)
 export function make(tag, attributes = {}, ...children) {
   const svg = ["svg", "path", "g", "circle", "line", "text", "rect"].includes(tag);

@@ -180,6 +180,9 @@ const NOT_OF_PAPER = SHAPE.filter((name) => /^(tone|steps|planes|light|attention
 export const ON_GROUND = namesOf("plate").filter((name) => /^(text|font|ornaments)/.test(name));
 export const hasGround = ({options}) => options.outline !== "none" && options.form !== "lithophane";
 
+// Returns whether a piece shows the figure mirrored.
+export const isMirrored = ({options: {form}}) => form === "mirror" || form === "die";
+
 export const hasScale = ({options}) => (options["mm-per-value"] ?? null) !== null && options.form !== "lithophane";
 
 // Returns the options for the engine and for `relievo make`. Leaves out options that have the value of a new document,

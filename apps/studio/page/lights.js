@@ -8,7 +8,10 @@ export const TABLE_LIGHTS = [
 ];
 
 export const degrees = (radians) => radians * 180 / Math.PI;
-const radians = (angle) => angle * Math.PI / 180;
+export const radians = (angle) => angle * Math.PI / 180;
+
+// Returns an angle as a whole number of degrees from 0 to 359.
+export const whole = (angle) => ((Math.round(angle) % 360) + 360) % 360;
 
 // Converts an azimuth and an elevation in degrees to a vector, and back.
 export const direction = (azimuth, elevation) => {

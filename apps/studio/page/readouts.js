@@ -1,5 +1,7 @@
-// Shows the numbers in the status line, and the chart of the section.
+// Shows the numbers in the status line, the chart of the section, and the progress of the engine's work in the
+// background.
 
+import {about} from "./about.js";
 import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
 
@@ -102,4 +104,15 @@ function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
   svg.onpointermove = ({clientX}) => point(clientX);
   svg.onpointerleave = () => point(null);
   show();
+}
+
+// `isAlone` is true while no relief is shown.
+export function showProgress({busy, stage, fraction = 0}, isAlone) {
+  const box = $("#progress"), percent = Math.round(fraction * 100), name = about.stages[stage] ?? stage;
+  box.hidden = !busy;
+  box.classList.toggle("alone", isAlone);
+  $(".track", box).setAttribute("aria-valuenow", percent);
+  $(".track", box).setAttribute("aria-valuetext", `${name}, ${percent} percent`);
+  $(".fill", box).style.width = `${Math.max(4, percent)}%`;
+  $("#stage-name").textContent = `${name} …`;
 }

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, PHONE, button, choose, engine, exported, folder, found, labelled, page, radio, scan, soon, test, toast,
-  touchScreen, undo, undoAll, untilTaken, withPage} from "./page_suite.mjs";
+import {DESK, PHONE, button, choose, engine, exported, folder, found, labelled, page, press, radio, scan, soon,
+  takeBack, test, toast, touchScreen, undo, undoAll, untilTaken, withPage} from "./page_suite.mjs";
 import {enter, run, untilReady} from "./support.mjs";
 
 let sent; // the newest request for a picture
@@ -67,11 +67,6 @@ async function both(from, to) {
   return before.map((height, i) => [height, after[i]]);
 }
 
-const clear = async () => {
-  await undoAll();
-  await untilReady(page);
-};
-
 test("changes the relief where the mouse goes, and nowhere else", async () => {
   await labelled("Brush size").fill("10");
   for (const [brush, sign] of [["soften", 0], ["sharpen", 0], ["strengthen", 0], ["level", 0], ["sink", -1]]) {
@@ -95,7 +90,7 @@ test("changes the relief where the mouse goes, and nowhere else", async () => {
     const {width} = await page.locator("#stage").boundingBox(), half = 0.05 * width / (await pixelsPerMm()) + 5;
     for (const [i, change] of across.entries())
       assert.ok(Math.abs(mm(i)) <= half + 1 || Math.abs(change) < 1e-3 * height, `${brush}: ${change} at ${mm(i)}`);
-    await clear();
+    await undoAll();
   }
 });
 
@@ -105,8 +100,7 @@ const pixelsPerMm = async () => Number(await page.locator("#overlay .brush").fir
 test("shows the stroke while it is drawn, in one step of undo", async () => {
   const before = await steps(), [from, to] = [await pixel(0.42, 0.45), await pixel(0.58, 0.45)];
   await kind().selectOption("raise");
-  await page.mouse.move(...from);
-  await page.mouse.down();
+  await press(from);
   await untilStrokes(1);
   await page.mouse.move(...to, {steps: 8});
   await soon.ok(() => strokes()[0].points.length > 1, "the picture shows the stroke so far");
@@ -121,9 +115,7 @@ test("shows the stroke while it is drawn, in one step of undo", async () => {
   await button("Redo").click();
   await untilStrokes(1);
   assert.deepEqual(strokes()[0], drawn);
-  await page.mouse.move(...from);
-  await page.mouse.down();
-  await page.mouse.move(...to, {steps: 4});
+  await press(from, to);
   await untilStrokes(2);
   await page.keyboard.press("Escape");
   await untilStrokes(1);
@@ -131,7 +123,7 @@ test("shows the stroke while it is drawn, in one step of undo", async () => {
   await page.mouse.up();
   await untilReady(page);
   assert.deepEqual(strokes(), [drawn], "Escape takes back the drag, and its rest paints nothing");
-  await clear();
+  await undoAll();
 });
 
 test("lists strokes, which can be named, muted and removed by keys", async () => {
@@ -169,7 +161,7 @@ test("lists strokes, which can be named, muted and removed by keys", async () =>
   await page.keyboard.press("Control+z");
   await soon.deepEqual(names, ["Soften 1", "cheek", "Raise 1"]);
   await choose("Brush");
-  await clear();
+  await undoAll();
 });
 
 test("exports the very bytes that make writes from the saved project", async () => {
@@ -187,7 +179,7 @@ test("exports the very bytes that make writes from the saved project", async () 
   run("make", project, "-o", made);
   const {bytes, isClosed} = await exported();
   assert.ok(isClosed && bytes.equals(readFileSync(made)));
-  await clear();
+  await undoAll();
 });
 
 test("paints on both sides of the figure's middle", async () => {
@@ -202,7 +194,7 @@ test("paints on both sides of the figure's middle", async () => {
   const [middle] = inView(strokes()[2].points[0]), near = 0.01 * Math.max(...size);
   assert.ok(Math.abs(y - otherY) < near && Math.abs(x + otherX - 2 * middle) < near, `${x} ${otherX} about ${middle}`);
   await soon.deepEqual(names, ["Soften 1", "Soften 1, mirrored", "Soften 2"]);
-  await clear();
+  await undoAll();
 });
 
 const shape = () => labelled("Shape of the stroke");
@@ -225,7 +217,7 @@ test("changes what a lasso encloses, and the region around a click", async () =>
   assert.deepEqual([other, tolerance, seed.length], ["region", 12, 1]);
   await soon.deepEqual(names, ["Sink 1", "Soften 1"]);
   await shape().selectOption("line");
-  await clear();
+  await undoAll();
 });
 
 test("draws lassos and regions by keys", async () => {
@@ -245,7 +237,7 @@ test("draws lassos and regions by keys", async () => {
   await untilReady(page);
   assert.deepEqual(strokes().map(({points, area}) => area === "region" ? points.length : area), ["lasso", 1]);
   await shape().selectOption("line");
-  await clear();
+  await undoAll();
 });
 
 test("erases what the brush crosses", async () => {
@@ -255,7 +247,7 @@ test("erases what the brush crosses", async () => {
   await drawUntil(0, "erase", [0.43, 0.5], [0.57, 0.5]);
   await undo(2);
   await untilStrokes(1);
-  await clear();
+  await undoAll();
 });
 
 test("paints less strongly where a pen presses less", async (context) => {
@@ -271,7 +263,7 @@ test("paints less strongly where a pen presses less", async (context) => {
   }
   const [light, firm] = strokes().map(({amount}) => amount);
   assert.ok(Math.abs(firm / light - 3) < 0.02, `${light} ${firm}`);
-  await clear();
+  await undoAll();
 });
 
 test("paints by keys", async () => {
@@ -289,7 +281,7 @@ test("paints by keys", async () => {
   await page.keyboard.press("]");
   await soon.ok(async () => JSON.parse(await page.evaluate(() => localStorage.getItem("brush"))).size > size);
   await page.keyboard.press("[");
-  await clear();
+  await undoAll();
 });
 
 test("paints on a phone with one finger, and moves the picture with two", async (context) => {
@@ -310,8 +302,7 @@ test("paints on a phone with one finger, and moves the picture with two", async 
   await send("touchEnd", []);
   await untilStrokes(1);
   await soon.equal(async () => (await names(phone)).length, 1);
-  await undo(1, phone);
-  await untilReady(phone);
+  await takeBack(1, phone);
   await close();
 });
 
@@ -319,6 +310,5 @@ test("says why a piece cannot be painted", async () => {
   await choose("Bent");
   await draw("raise", [0.5, 0.5]);
   await toast().getByText(/bent cannot be painted/).waitFor();
-  await undo();
-  await untilReady(page);
+  await takeBack();
 });

@@ -4,10 +4,10 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, browser, button, exported, folder, found, numbers, openFile, page, soon, startEngine, test, toast, undo,
-  visiblePoints, withBrowser} from "./page_suite.mjs";
-import {PROGRAM, enter, eventually, openPanels, run, savedFiles, untilReady, writeBallBeforeWall, writeDepths,
-  writeSample} from "./support.mjs";
+import {DESK, browser, button, exported, folder, numbers, openFile, page, savedProject, showFile, soon, startEngine,
+  test, toast, undo, visiblePoints, withBrowser} from "./page_suite.mjs";
+import {PROGRAM, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeDepths, writeSample} from
+  "./support.mjs";
 
 const depth = path.join(folder, "depth.tif"), terrain = path.join(folder, "terrain.tif");
 const photo = path.join(folder, "photo.png"), scan = path.join(folder, "scan.ply");
@@ -28,12 +28,6 @@ const row = (name) => page.locator(`[data-option="${name}"]`);
 const panel = () => page.locator("#depth");
 const use = (name) => panel().getByRole("listitem").filter({hasText: name});
 
-async function show(file) {
-  await page.locator("#file").setInputFiles(file);
-  await page.getByText(path.basename(file), {exact: true}).waitFor();
-  await untilReady(page);
-}
-
 // Returns the colour of a pixel in the picture that shows the uses of pixels. x and y are fractions of its width and
 // height.
 const colourAt = (x, y) => page.locator("#depth-picture").evaluate((canvas, [x, y]) => {
@@ -44,13 +38,10 @@ const isGrey = ([r, g, b]) => r === g && g === b;
 const colourOf = (name) => use(name).locator(".dot").evaluate((dot) =>
   getComputedStyle(dot).backgroundColor.match(/\d+/g).map(Number));
 
-async function savedProject() {
-  await button("Save project").click();
-  await page.getByText("Settings alone").click();
-  const [{bytes}] = await savedFiles(found, page, 1, () =>
-    page.getByRole("dialog", {name: "Save project"}).getByRole("button", {name: "Save"}).click());
+// Saves the project, and returns the path of its file.
+async function projectFile() {
   const file = path.join(folder, "saved.relievo");
-  writeFileSync(file, bytes);
+  writeFileSync(file, await savedProject());
   return file;
 }
 
@@ -83,12 +74,12 @@ test("shows which pixels of a depth picture are left out, and puts them back", a
 });
 
 test("has a project that make reads as the page does", async () => {
-  assert.match(madeOf(await savedProject()).told, /points of background taken out/);
+  assert.match(madeOf(await projectFile()).told, /points of background taken out/);
   await row("background").selectOption("keep");
   await row("depth-values").selectOption("height");
   await soon.match(() => panel().innerText(), /read as heights/);
   await untilReady(page);
-  const {bytes, told} = madeOf(await savedProject());
+  const {bytes, told} = madeOf(await projectFile());
   assert.doesNotMatch(told, /taken out/);
   assert.ok(bytes.equals((await exported()).bytes));
   await undo(2);
@@ -99,7 +90,7 @@ test("has a project that make reads as the page does", async () => {
 test("takes the depth of the picture in its widths, where that has an effect", async () => {
   await enter(row("depth-range"), "0.1");
   await untilReady(page);
-  const project = await savedProject();
+  const project = await projectFile();
   assert.equal(JSON.parse(readFileSync(project, "utf8")).options["depth-range"], 0.1);
   assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
   await row("depth-values").selectOption("inverse"); // a camera is assumed for inverse depths
@@ -115,7 +106,7 @@ test("reads depths by the camera that is entered, and so does make with the proj
   await soon.match(() => panel().innerText(), /All pixels are used/); // with a camera, the background is kept
   await soon.ok(async () => await row("depth-range").isHidden()); // with a camera, depths are exact
   await untilReady(page);
-  const project = await savedProject();
+  const project = await projectFile();
   assert.equal(JSON.parse(readFileSync(project, "utf8")).options.camera, "100,100,59.5,44.5");
   assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
   await enter(row("camera"), "100,-1,59.5,44.5");
@@ -140,7 +131,7 @@ function writeSplats(file, faint) {
 test("brings back points that the file marks as doubtful", async () => {
   const file = path.join(folder, "dome.splat");
   writeSplats(file, 300);
-  await show(file);
+  await showFile(file);
   const note = page.locator("#notes").getByText("Left out 300 points of splats that are less than half opaque");
   await soon.doesNotMatch(() => note.innerText(), /--/);
   await button("Keep them", note).click();
@@ -153,14 +144,14 @@ test("brings back points that the file marks as doubtful", async () => {
 });
 
 test("has the panel for depth pictures alone", async () => {
-  await show(scan);
+  await showFile(scan);
   await soon.ok(async () => await panel().isHidden());
-  await show(depth);
+  await showFile(depth);
   await soon.ok(async () => await panel().isVisible());
 });
 
 test("makes a lithophane of a photo pixel by pixel, as the command line does", async () => {
-  await show(photo);
+  await showFile(photo);
   await soon.match(() => panel().innerText(), /read as brightness/);
   await page.locator('[data-kind="lithophane"]').click();
   await soon.match(() => panel().innerText(), /brightness becomes thickness/);
@@ -169,7 +160,7 @@ test("makes a lithophane of a photo pixel by pixel, as the command line does", a
   const {bytes} = await exported(), solid = path.join(folder, "photo.stl");
   run("make", photo, "-o", solid, "--form", "lithophane", "--depth-values", "luminance");
   assert.ok(bytes.equals(readFileSync(solid)));
-  assert.ok(bytes.equals(madeOf(await savedProject()).bytes));
+  assert.ok(bytes.equals(madeOf(await projectFile()).bytes));
   await page.locator('[data-kind="relief"]').click();
   await soon.match(() => panel().innerText(), /read as brightness/);
   await untilReady(page);
@@ -196,7 +187,7 @@ test("takes a photo that only the browser can read", async () => {
 });
 
 test("gives heights one vertical scale, whose height follows from the values", async () => {
-  await show(terrain);
+  await showFile(terrain);
   await row("depth-values").selectOption("height");
   await untilReady(page);
   await enter(row("mm-per-value"), "0.01");
@@ -208,7 +199,7 @@ test("gives heights one vertical scale, whose height follows from the values", a
   });
   await untilReady(page);
   assert.ok(await page.getByRole("spinbutton", {name: "Height in mm"}).isDisabled());
-  const project = await savedProject();
+  const project = await projectFile();
   assert.ok(madeOf(project).bytes.equals((await exported()).bytes));
   await openFile(project);
   await soon.equal(() => row("ground").inputValue(), "700");

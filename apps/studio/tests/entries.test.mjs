@@ -2,8 +2,8 @@
 // projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, openExport, option,
-  page, radio as kind, scan, soon, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, openExport, option, page,
+  radio as kind, scan, soon, takeBack, test, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
 import {enter, eventually, holdRequests, openPanels, readStl, savedFiles, type, untilReady,
   writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
@@ -117,8 +117,7 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   await soon.deepEqual(plateWidthAndRim, ["200x150", "90.0", "2"]);
   await undo();
   await soon.equal(() => value("rim"), "");
-  await undo();
-  await untilReady(page);
+  await takeBack();
   await soon.ok(async () => Number(await value("width")) > 120, "as large as fits");
   await undo();
   await soon.deepEqual(async () => [await value("plate"), await value("width")], ["", longer]);
@@ -241,8 +240,7 @@ test("waits with an export for a view that is being prepared", async () => {
   const [{bytes}] = await files();
   assert.ok(readStl(bytes).isClosed);
   await soon.equal(() => value("crop"), "0,0,0.5,1");
-  await undo();
-  await untilReady(page);
+  await takeBack();
 });
 
 const SEED = 7, SEQUENCES = 15; // random_entries.mjs can run hundreds of sequences

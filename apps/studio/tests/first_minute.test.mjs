@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, numbers, openFile, option, page,
-  pieceSize, press, radio, skip, slider, soon, startEngine, test, text, toast, undo, undoAll, untilText, untilTold,
+import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, openFile, option, page, pieceSize, press,
+  radio, showFile, skip, slider, soon, startEngine, takeBack, test, text, toast, undo, undoAll, untilText, untilTold,
   visiblePoints as points, withBrowser} from "./page_suite.mjs";
 import {randomNumbers} from "./random_entries.mjs";
 import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
@@ -260,7 +260,6 @@ test("shows first, with each kind, the controls that matter for it", async () =>
   await soon.equal(() => page.evaluate(() => document.activeElement.id), "outline");
   assert.deepEqual(await shown(), PANELS.Coin);
   await undoAll();
-  await untilReady(page);
   await soon.ok(() => kind("Plaque").isChecked());
 });
 
@@ -321,8 +320,7 @@ test("crops the scan by a frame on the picture", async () => {
   await eventually(async () => assert.equal(await points(), before));
   await soon.equal(() => page.locator("#crop").inputValue(), "");
   await button("Done").click();
-  await undo(6);
-  await untilReady(page);
+  await takeBack(6);
 });
 
 test("colours on the piece what a tool leaves standing", async () => {
@@ -345,8 +343,7 @@ test("colours on the piece what a tool leaves standing", async () => {
   await soon.ok(async () => (await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
   await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
-  await undo(3);
-  await untilReady(page);
+  await takeBack(3);
   await soon.ok(async () => (await orange()) < before + 500);
   await button("Fit").click();
 });
@@ -380,7 +377,6 @@ test("moves, scales and turns the figure on its plate by hand", async () => {
   await page.getByText("Turned by hand").waitFor();
   await untilReady(page);
   await undoAll(page, async () => (await longer()) === whole);
-  await untilReady(page);
   await radio("Light").click();
 });
 
@@ -529,16 +525,12 @@ test("tells what is taken out of a depth image as background, and advises nothin
   const depth = path.join(folder, "depth.tif"), colours = path.join(folder, "colours.png");
   writeBallBeforeWall(depth);
   run("make", scans[1], "-o", path.join(folder, "relief.stl"), "--preview", colours, "--preview-size", 100);
-  await page.locator("#file").setInputFiles(depth);
-  await page.getByText("depth.tif", {exact: true}).waitFor();
-  await untilReady(page);
+  await showFile(depth);
   const found = page.locator("#offers li", {hasText: /background/});
   await soon.match(() => found.innerText(), /^Left out as background: 7,9\d\d \(7\d %\)/);
   await button("Hide what was found").click();
   await found.waitFor({state: "hidden"});
-  await page.locator("#file").setInputFiles(colours);
-  await page.getByText("colours.png", {exact: true}).waitFor();
-  await untilReady(page);
+  await showFile(colours);
   await page.locator("#depth-values").selectOption("depth"); // a coloured picture has no depths
   const said = toast().getByText(/colours\.png/);
   await said.waitFor();

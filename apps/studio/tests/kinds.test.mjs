@@ -2,7 +2,7 @@
 // settings.
 import assert from "node:assert/strict";
 import {choose, chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, soon,
-  test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
+  takeBack, test, undo, undoAll, untilTaken, untilText, withPage} from "./page_suite.mjs";
 import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
 withPage("green_man", 5000, async () => {
@@ -108,8 +108,7 @@ test("uses no tool for a lithophane, and has it again for a coin", async () => {
   await page.getByText(/^The tool reaches/).waitFor();
   await untilText(option("tool"), "ball");
   await untilText(option("finish"), "reachable");
-  await undo(5);
-  await untilReady(page);
+  await takeBack(5);
 });
 
 test("names the files of each kind", async () => {

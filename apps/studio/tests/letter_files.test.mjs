@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {button, engine, exported, folder, found, labelled, page, scan, set, soon, test, toast, withPage}
+import {button, engine, exported, folder, found, labelled, page, savedProject, scan, set, soon, test, toast, withPage}
   from "./page_suite.mjs";
-import {enter, run, savedFiles, untilReady} from "./support.mjs";
+import {enter, run, untilReady} from "./support.mjs";
 
 withPage("still_life", 5000, async () => {
   await enter(labelled("Margin in mm"), "9");
@@ -31,13 +31,6 @@ async function drop(name, content) {
     return transfer;
   }, [name, [...Buffer.from(content)]]);
   await page.locator("#letters").dispatchEvent("drop", {dataTransfer: transfer});
-}
-
-async function savedProject() {
-  await button("Save project").click();
-  const [{bytes}] = await savedFiles(found, page, 1, () =>
-    page.getByRole("dialog", {name: "Save project"}).getByRole("button", {name: "Save"}).click());
-  return bytes;
 }
 
 test("takes fonts and drawings that are dropped, and says why it refuses a file", async () => {
@@ -86,7 +79,7 @@ test("sets a text in a font by file and adds a drawing, which are in the saved p
   const {bytes: with_drawing} = await exported();
   assert.ok(!with_drawing.equals(before));
   const project = path.join(folder, "files.relievo"), made = path.join(folder, "files.stl");
-  writeFileSync(project, await savedProject());
+  writeFileSync(project, await savedProject("With the scan"));
   for (const {font, file} of await list()) // `make` must not need the studio's copies of the files
     rmSync(path.dirname(font ?? file), {recursive: true});
   run("make", project, "-o", made);

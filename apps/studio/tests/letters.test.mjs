@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {button, drag, engine, exported, folder, found, labelled, middleOf, page, scan, set, soon, test, undo,
+import {button, drag, engine, exported, folder, labelled, middleOf, page, savedProject, scan, set, soon, test, undo,
   withPage} from "./page_suite.mjs";
-import {enter, eventually, run, savedFiles, untilReady} from "./support.mjs";
+import {enter, eventually, run, untilReady} from "./support.mjs";
 
 withPage("still_life", 5000, async () => {
   await enter(labelled("Margin in mm"), "9");
@@ -137,11 +137,8 @@ test("exports the bytes that make writes of the saved project, which has the let
   await untilShown();
   const file = await exported();
   assert.ok(file.isClosed);
-  await button("Save project").click();
-  const [{bytes}] = await savedFiles(found, page, 1, () =>
-    page.getByRole("dialog", {name: "Save project"}).getByRole("button", {name: "Save"}).click());
   const project = path.join(folder, "letters.relievo"), made = path.join(folder, "letters.stl");
-  writeFileSync(project, bytes);
+  writeFileSync(project, await savedProject("With the scan"));
   run("make", project, "-o", made);
   assert.ok(readFileSync(made).equals(file.bytes), "the bytes differ");
   await undo(5);

@@ -1,9 +1,9 @@
 // Tests the panel of light and colour: the light for which a relief is made, and the dark lines of coloured scans.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {button, drag, engine, field, folder, labelled, middleOf, openFile, option, page, scan, slider, soon, test, undo,
-  untilTaken, withPage} from "./page_suite.mjs";
-import {enter, untilReady, writeColouredBall, writeSample} from "./support.mjs";
+import {button, drag, engine, field, folder, labelled, middleOf, openFile, option, page, scan, slider, soon, takeBack,
+  test, undo, untilTaken, withPage} from "./page_suite.mjs";
+import {enter, untilReady, writeColouredBall} from "./support.mjs";
 
 const coloured = path.join(folder, "coloured.ply");
 
@@ -87,8 +87,7 @@ test("changes the relief by the contrast", async () => {
   await untilReady(page);
   await soon.ok(() => made().isDisabled());
   await soon.ok(() => dial().isHidden());
-  await undo(3);
-  await untilReady(page);
+  await takeBack(3);
   await soon.ok(() => made().isEnabled());
 });
 

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, browser, button, engine, folder, found, page, scan, soon, startEngine, test, toast, undo, undoAll,
-  untilText, withBrowser} from "./page_suite.mjs";
+import {DESK, browser, button, engine, folder, found, page, scan, showFile, soon, startEngine, test, toast, undo,
+  undoAll, untilText, withBrowser} from "./page_suite.mjs";
 import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeColouredBall, writeSample}
   from "./support.mjs";
 
@@ -114,11 +114,7 @@ const cases = shown.filter(({name}) => found.name !== "firefox" || KINDS.include
 
 // Opens a file unless the page shows it.
 async function show(file) {
-  const name = path.basename(file);
-  if (await page.locator("#title").textContent() === name) return;
-  await page.locator("#file").setInputFiles(file);
-  await page.getByText(name, {exact: true}).waitFor();
-  await untilReady(page);
+  if (await page.locator("#title").textContent() !== path.basename(file)) await showFile(file);
 }
 
 for (const [name, {value, first = {}, kind, isDepth, isColoured}] of cases)
@@ -135,7 +131,6 @@ for (const [name, {value, first = {}, kind, isDepth, isColoured}] of cases)
     else if (name === "tone") await reaches((request) => /^0,[\d.]+;/.test(request.options.tone ?? ""));
     else await reaches((request) => request.options[name] === value);
     await undoAll(); // restores the defaults
-    await untilReady(page);
   });
 
 test("has a field for each parameter of each shape that the engine takes", async () => {
@@ -205,7 +200,6 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await enter(field("Base: Height"), "4"); // replaces the diameter
   await reaches(({options}) => options.base === "dome:height=4");
   await undoAll();
-  await untilReady(page);
 });
 
 const makeMaps = (...files) => files.forEach((file) =>

@@ -2,7 +2,8 @@
 // numbers.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
-  plateLength, press, radio, scan, soon, test, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
+  plateLength, press, radio, scan, soon, takeBack, test, toast, touchScreen, undo, undoAll, withPage} from
+  "./page_suite.mjs";
 import {enter, eventually, untilReady} from "./support.mjs";
 
 const SCREENS = [DESK, TABLET, PHONE];
@@ -177,7 +178,6 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", async 
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
   const {touched: tablet, cdp, send: palm, close} = await touchScreen(TABLET);
   await undoAll(tablet);
-  await untilReady(tablet);
   await tablet.evaluate(() => ["pointerdown", "pointermove"].forEach((type) =>
     document.querySelector("#stage").addEventListener(type, (event) => (window.pointer = event.pointerType), true)));
   const pen = (type, x, y, rest = {}) => cdp.send("Input.dispatchMouseEvent",
@@ -203,8 +203,7 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", async 
   await pen("mouseMoved", whole.x + whole.width / 2, whole.y + whole.height / 2);
   await pen("mouseReleased", whole.x + whole.width / 2, whole.y + whole.height / 2, {buttons: 0});
   await eventually(async () => assert.match(await tablet.locator("#crop").inputValue(), /^0,0,0\.(49|5)\d*,1$/));
-  await undo(1, tablet);
-  await untilReady(tablet);
+  await takeBack(1, tablet);
   await close();
 });
 
@@ -256,8 +255,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up);
   assert.equal(turned.at, before.at + 1);
   await untilScaled();
-  await undo(1, phone);
-  await untilReady(phone);
+  await takeBack(1, phone);
   await close();
 });
 

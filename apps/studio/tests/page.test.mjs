@@ -2,11 +2,11 @@
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exportFiles, exported, field,
-  folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, scan, set, slider,
-  soon, startEngine, test, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
-import {doubleClick, enter, eventually, openPanels, run, savedFiles, type, untilListening, untilReady,
-  writeSample} from "./support.mjs";
+import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exported, exportFiles, field,
+  folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, savedProject, scan,
+  set, slider, soon, startEngine, takeBack, test, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
+import {doubleClick, enter, eventually, openPanels, run, type, untilListening, untilReady, writeSample} from
+  "./support.mjs";
 
 const complaints = [];
 
@@ -397,9 +397,7 @@ test("saves a project, opens it again, and makes the same bytes of it", async ()
   await set("Height in mm", 2.5);
   await untilHeight(2.5, 0.01);
   const shown = await picture(), file = path.join(folder, "work.relievo"), made = path.join(folder, "make.stl");
-  await button("Save project").click();
-  await page.getByRole("radio", {name: /^Settings alone/}).check();
-  const [{bytes}] = await savedFiles(found, page, 1, () => button("Save").click()), saved = JSON.parse(bytes);
+  const bytes = await savedProject(), saved = JSON.parse(bytes);
   writeFileSync(file, bytes);
   assert.equal(saved.options.height, 2.5);
   await toast().getByText("Saved: scan.relievo.").waitFor();
@@ -444,8 +442,7 @@ test("exports several files at once, named for their form", async () => {
   await toast().getByText(saved).waitFor();
   for (const name of ["3mf", "heightmap"])
     await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
-  await undo();
-  await untilReady(page);
+  await takeBack();
 });
 
 test("exports height maps of an exact pixel, inverted, of 8 bits and of the relief alone", async () => {

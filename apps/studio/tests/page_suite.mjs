@@ -83,10 +83,18 @@ export async function undo(times = 1, of = page) {
   for (let i = 0; i < times; ++i) await button("Undo", of).click();
 }
 
-// Undoes steps until none is left or isEnough() returns true. The button may become disabled meanwhile.
+// Undoes steps, and waits until the page is ready.
+export async function takeBack(times = 1, of = page) {
+  await undo(times, of);
+  await untilReady(of);
+}
+
+// Undoes steps until none is left or isEnough() returns true, and waits until the page is ready. The button may become
+// disabled meanwhile.
 export async function undoAll(of = page, isEnough = () => false) {
   const once = button("Undo", of);
   while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
+  await untilReady(of);
 }
 
 // Waits until the page has reacted to the present sizes of its parts, which the browser reports with the next frame.
@@ -122,6 +130,22 @@ export async function openFile(file, of = page) {
   const chooser = of.waitForEvent("filechooser");
   await button("Open", of).click();
   await (await chooser).setFiles(file);
+}
+
+// Opens a file, and waits until its relief is shown.
+export async function showFile(file, of = page) {
+  await of.locator("#file").setInputFiles(file);
+  await of.getByText(path.basename(file), {exact: true}).waitFor();
+  await untilReady(of);
+}
+
+// Saves the project, and returns the bytes of its file. `how` is "Settings alone" or "With the scan".
+export async function savedProject(how = "Settings alone", of = page) {
+  const dialog = of.getByRole("dialog", {name: "Save project"});
+  await button("Save project", of).click();
+  await dialog.getByText(how).click();
+  const [{bytes}] = await savedFiles(found, of, 1, () => button("Save", dialog).click());
+  return bytes;
 }
 
 // -------------------------------------------------------------------------------------------------- the pointer

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, button, choose, engine, field, folder, found, labelled, option, page, scan, set, soon, test, text, undo,
-  untilTaken, withPage} from "./page_suite.mjs";
-import {enter, savedFiles, untilReady} from "./support.mjs";
+import {DESK, button, choose, engine, field, folder, labelled, option, page, savedProject, scan, set, soon, test, text,
+  undo, untilTaken, withPage} from "./page_suite.mjs";
+import {enter, untilReady} from "./support.mjs";
 
 withPage("shell", 5000, () => page.setViewportSize(DESK));
 
@@ -95,11 +95,7 @@ test("does not compare settings of another view, and applies them with their vie
 });
 
 test("keeps snapshots in a project, without what is none", async () => {
-  await button("Save project").click();
-  const dialog = page.getByRole("dialog", {name: "Save project"});
-  await dialog.getByText("Settings alone").click();
-  const [{bytes}] = await savedFiles(found, page, 1, () => dialog.getByRole("button", {name: "Save"}).click());
-  const project = JSON.parse(bytes.toString());
+  const project = JSON.parse(await savedProject());
   assert.deepEqual(project.studio.snapshots.map(({name}) => name), ["Flat", "Snapshot 2"]);
   assert.ok(JSON.stringify(project.studio.snapshots).length < 1500, "options that a new document has are left out");
   project.studio.snapshots.push({name: 3, options: {}}, {name: "none"}, "none",

@@ -1,6 +1,6 @@
 // Lists the states of the studio's page, for tests and pictures. Each state starts and ends at the plain relief: one
 // scan from a file, with all panels open.
-import {button, choose, field, undo} from "./page_suite.mjs";
+import {button, choose, field, takeBack, undo} from "./page_suite.mjs";
 import {enter, untilReady} from "./support.mjs";
 
 const press = (name) => (page) => button(name, page).click();
@@ -10,10 +10,7 @@ const nothing = () => {};
 const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
 // Returns a function that leaves a state: it undoes `times` steps, and waits until the page is ready.
-const undone = (times) => async (page) => {
-  await undo(times, page);
-  await untilReady(page);
-};
+const undone = (times) => (page) => takeBack(times, page);
 const kind = (name) => ({enter: (page) => choose(name, page), leave: undone(1)});
 
 // Paints a dab by the keyboard, in the middle of the picture.

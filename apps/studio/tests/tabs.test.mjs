@@ -2,10 +2,9 @@
 import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, scan, slider,
-  soon, startEngine, state, test, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
-import {EngineProcess, enter, eventually, openPanels, savedFiles, untilListening, untilReady,
-  writeSample} from "./support.mjs";
+import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, savedProject,
+  scan, slider, soon, startEngine, state, test, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
+import {EngineProcess, enter, eventually, openPanels, untilListening, untilReady, writeSample} from "./support.mjs";
 
 const fileOf = (sample) => (sample === "still_life" ? scan : path.join(folder, `${sample}.ply`));
 let context;
@@ -213,10 +212,7 @@ test("shows the newer work that it finds with the next engine, and says so", asy
 
 test("opens a project saved with its scan in another studio, where the scan is not", async () => {
   const tab = await newTab(), moved = path.join(folder, "moved.ply"), project = path.join(folder, "work.relievo");
-  await button("Save project", tab).click();
-  await tab.getByRole("radio", {name: /^With the scan/}).check();
-  const [{bytes}] = await savedFiles(found, tab, 1, () => button("Save", tab).click());
-  writeFileSync(project, bytes);
+  writeFileSync(project, await savedProject("With the scan", tab));
   renameSync(scan, moved);
   const elsewhere = await new EngineProcess(path.join(folder, "elsewhere")).ready();
   await tab.goto(elsewhere.address);

@@ -94,19 +94,28 @@ Result<MakeOrder> order_from(const Json& json) {
   return order;
 }
 
-// Returns the object that an earlier call made. The argument `key` has its number.
+// Returns the object that an earlier call made. The argument `relief`, `session` or `frame` has its number.
 template <typename T>
-Result<std::shared_ptr<T>> find(const Json& json, const char* key) {
+Result<std::shared_ptr<T>> find(const Json& json) {
+  const char* const key = std::is_same_v<T, FinishedRelief>  ? "relief"
+                          : std::is_same_v<T, PreparedModel> ? "session"
+                                                             : "frame";
   const auto found = kept().find(integer(json, key, 0));
   const auto* const made = found == kept().end() ? nullptr : std::get_if<std::shared_ptr<T>>(&found->second);
   if (!made) return option_error(key, "expected one that was not released");
   return *made;
 }
 
-template <typename T>
-std::vector<std::byte> bytes_of_all(const std::vector<T>& values) {
+std::vector<std::byte> bytes_of_all(const auto& values) {
   const auto bytes = std::as_bytes(std::span(values));
   return {bytes.begin(), bytes.end()};
+}
+
+// Answers with the numbers of an array of an object.
+template <typename T, auto array>
+Result<CallAnswer> numbers_of(const Json& json) {
+  RELIEVO_TRY(const auto made, find<T>(json));
+  return CallAnswer{{}, bytes_of_all(array(*made))};
 }
 
 CallAnswer answer_of(std::shared_ptr<FinishedRelief> relief) {
@@ -141,7 +150,7 @@ Result<CallAnswer> make_sample_file(const Json& json) {
 // Returns one file of a relief from the arguments {"relief", "path", "kind"}. `kind` is the name of a field
 // of ReliefFiles.
 Result<CallAnswer> file(const Json& json) {
-  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json));
   ReliefFiles files;
   RELIEVO_TRY(files.unit, parse_unit(text(json, "units", "mm")));
   files.heightmap_px = integer(json, "heightmap_px", files.heightmap_px);
@@ -167,7 +176,7 @@ Result<CallAnswer> file(const Json& json) {
 }
 
 Result<CallAnswer> heights(const Json& json) {
-  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json));
   const int size = integer(json, "size", 1024);
   if (size < 1 || size > 32768) return option_error("size", cat("expected 1 to 32768 pixels, found ", size));
   const MadeRelief& made = relief->made;
@@ -175,16 +184,6 @@ Result<CallAnswer> heights(const Json& json) {
   return CallAnswer{
       {{"width", map.image.width}, {"height", map.image.height}, {"mm_per_pixel", map.mm_per_pixel}},
       bytes_of_all(map.image.pixels)};
-}
-
-Result<CallAnswer> vertices(const Json& json) {
-  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
-  return CallAnswer{{}, bytes_of_all(relief->made.solid.points)};
-}
-
-Result<CallAnswer> faces(const Json& json) {
-  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
-  return CallAnswer{{}, bytes_of_all(relief->made.solid.triangles)};
 }
 
 // -------------------------------------------------------------------------------------------------- sessions
@@ -200,7 +199,7 @@ Result<CallAnswer> open(const Json& json) {
 }
 
 Result<CallAnswer> make_of_session(const Json& json) {
-  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json));
   RELIEVO_TRY(const MakeOrder order, order_from(json));
   HostProgress progress;
   RELIEVO_TRY(auto relief, model->make(order, progress));
@@ -208,7 +207,7 @@ Result<CallAnswer> make_of_session(const Json& json) {
 }
 
 Result<CallAnswer> frame(const Json& json) {
-  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json));
   RELIEVO_TRY(const MakeOrder order, order_from(json));
   RELIEVO_TRY(const auto made, model->frame(order));
   const Frame& f = made->frame;
@@ -218,24 +217,9 @@ Result<CallAnswer> frame(const Json& json) {
                      {"u", f.options.shape.compression.u}}};
 }
 
-Result<CallAnswer> frame_heights(const Json& json) {
-  RELIEVO_TRY(const auto shown, find<FrameInMm>(json, "frame"));
-  return CallAnswer{{}, bytes_of_all(shown->frame.heights)};
-}
-
-Result<CallAnswer> surface_points(const Json& json) {
-  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
-  return CallAnswer{{}, bytes_of_all(model->model().surface().points)};
-}
-
-Result<CallAnswer> surface_triangles(const Json& json) {
-  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
-  return CallAnswer{{}, bytes_of_all(model->model().surface().triangulation.triangles)};
-}
-
 Result<CallAnswer> picture(const Json& json) {
-  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
-  RELIEVO_TRY(const auto shown, find<FrameInMm>(json, "frame"));
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json));
+  RELIEVO_TRY(const auto shown, find<FrameInMm>(json));
   RenderOptions options;
   options.width = integer(json, "width", options.width);
   options.height = integer(json, "height", options.height);
@@ -262,22 +246,26 @@ Result<CallAnswer> release(const Json& json) {
 }
 
 using Function = Result<CallAnswer> (*)(const Json&);
-constexpr std::pair<std::string_view, Function> functions[] = {{"about", about},
-                                                               {"make", make},
-                                                               {"sample", make_sample_file},
-                                                               {"file", file},
-                                                               {"heights", heights},
-                                                               {"vertices", vertices},
-                                                               {"faces", faces},
-                                                               {"open", open},
-                                                               {"session_make", make_of_session},
-                                                               {"frame", frame},
-                                                               {"frame_heights", frame_heights},
-                                                               {"surface_points", surface_points},
-                                                               {"surface_triangles", surface_triangles},
-                                                               {"picture", picture},
-                                                               {"nearest", nearest},
-                                                               {"release", release}};
+constexpr std::pair<std::string_view, Function> functions[] = {
+    {"about", about},
+    {"make", make},
+    {"sample", make_sample_file},
+    {"file", file},
+    {"heights", heights},
+    {"vertices", numbers_of<FinishedRelief, [](const auto& r) { return std::span(r.made.solid.points); }>},
+    {"faces", numbers_of<FinishedRelief, [](const auto& r) { return std::span(r.made.solid.triangles); }>},
+    {"open", open},
+    {"session_make", make_of_session},
+    {"frame", frame},
+    {"frame_heights", numbers_of<FrameInMm, [](const auto& f) { return std::span(f.frame.heights); }>},
+    {"surface_points",
+     numbers_of<PreparedModel, [](const auto& m) { return std::span(m.model().surface().points); }>},
+    {"surface_triangles",
+     numbers_of<PreparedModel,
+                [](const auto& m) { return std::span(m.model().surface().triangulation.triangles); }>},
+    {"picture", picture},
+    {"nearest", nearest},
+    {"release", release}};
 
 }  // namespace
 

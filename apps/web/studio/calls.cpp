@@ -2,12 +2,15 @@
 // others ask for work that the native studio does with files and threads.
 #include "web/calls.h"
 
+#include <map>
+#include <span>
+
 #include "common/files.h"
 #include "relievo/core/text.h"
 #include "studio/actions.h"
 #include "studio/answers.h"
+#include "studio/store.h"
 #include "web/studio/apart.h"
-#include "web/studio/browser_store.h"
 
 // Sends the statuses of the open documents, as JSON, to the host after one has changed. The host provides
 // this function in the module "relievo".
@@ -18,6 +21,55 @@ namespace relievo::app::web {
 namespace {
 
 using Json = nlohmann::json;
+
+struct ScanInMemory final : studio::DroppedScan {
+  explicit ScanInMemory(const std::string& scan) : name(studio::plain_name(scan)) {}
+
+  Result<void> append(std::string_view more) override {
+    hash.append(more);
+    const auto added = std::as_bytes(std::span(more));
+    bytes.insert(bytes.end(), added.begin(), added.end());
+    return {};
+  }
+
+  std::string name;
+  FileHash hash;
+  std::vector<std::byte> bytes;
+};
+
+std::string folder_of(std::string_view hash) {
+  return cat("scans/", hash.substr(hash.find(':') + 1), "/");
+}
+
+// Names scans by their hash, and keeps their bytes until the page takes them. Documents are stored by
+// apps/web/page/store.js instead.
+class BrowserStore final : public studio::Store {
+ public:
+  std::unique_ptr<studio::DroppedScan> begin_scan(const std::string& name) const override {
+    return std::make_unique<ScanInMemory>(name);
+  }
+
+  Result<ScanSource> keep(studio::DroppedScan& scan) override {
+    auto& kept = static_cast<ScanInMemory&>(scan);  // begin_scan() made it, so it has this type
+    const std::string hash = kept.hash.text();
+    ScanSource source{{}, folder_of(hash) + kept.name, kept.name, hash};
+    bytes_[source.path] = std::move(kept.bytes);
+    return source;
+  }
+
+  std::optional<ScanSource> find_scan(const std::string& hash) const override {
+    const std::string folder = folder_of(hash);
+    const auto found = bytes_.lower_bound(folder);
+    if (found == bytes_.end() || !found->first.starts_with(folder)) return std::nullopt;
+    return ScanSource{{}, found->first, found->first.substr(folder.size()), hash};
+  }
+
+  // Returns the bytes of the scan that was kept under that path. A second call returns an empty vector.
+  std::vector<std::byte> take_bytes(const std::string& path) { return std::exchange(bytes_[path], {}); }
+
+ private:
+  std::map<std::string, std::vector<std::byte>> bytes_;  // maps paths to contents
+};
 
 void tell_statuses();
 

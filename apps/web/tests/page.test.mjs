@@ -5,16 +5,16 @@ import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
-import {after, before, test} from "node:test";
-import os from "node:os";
-import {enter, findBrowser, openPanels, savedFiles, writeBallBeforeWall} from "../../studio/tests/support.mjs";
-import {admesh, eventually, fileAddress, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
+import {before, test} from "node:test";
+import {enter, findBrowser, openPanels, savedFiles, temporaryFolder, writeBallBeforeWall}
+  from "../../studio/tests/support.mjs";
+import {admesh, eventually, fileAddress, pageWithLittleMemory, serve} from "./support.mjs";
 import {missingWebKit, WebKitPage} from "./webkit.mjs";
 
 const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
 const native = process.env.RELIEVO;
 const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
-let scans; // a folder of scans
+const scans = temporaryFolder();
 
 function waves(rows) {
   const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
@@ -26,7 +26,6 @@ function waves(rows) {
 }
 
 before(async () => {
-  scans = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-scans-"));
   const shell = await relievo.sample("shell", {points: 20000});
   fs.writeFileSync(path.join(scans, "shell.ply"), shell);
   fs.writeFileSync(path.join(scans, "dense.ply"), await relievo.sample("shell", {points: 100000}));
@@ -38,7 +37,6 @@ before(async () => {
   const models = [{file: "shell.ply"}, {file: "urn.ply", translate: [2.5, 0, 0]}];
   fs.writeFileSync(path.join(scans, "both.json"), JSON.stringify({models}));
 });
-after(() => fs.rmSync(scans, {recursive: true, force: true}));
 const scan = (name) => path.join(scans, name);
 
 // The page in a browser, and the actions of its user.
@@ -58,6 +56,12 @@ class Studio {
 
   open(...files) {
     return this.page.locator("#file").setInputFiles(files);
+  }
+
+  // Opens a file, and waits until its relief is shown.
+  async show(file, points = "20,000") {
+    await this.open(file);
+    await this.untilReady(points);
   }
 
   async untilReady(points) {
@@ -96,7 +100,7 @@ class Studio {
 }
 
 async function newStudio(t, name, address) {
-  const found = browsers[name], downloads = temporaryFolder(t), browser = await found.launch();
+  const found = browsers[name], downloads = temporaryFolder(), browser = await found.launch();
   t.after(() => browser.close());
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true});
   const openPage = async () => {
@@ -113,8 +117,7 @@ for (const [name, {skip}] of Object.entries(browsers))
     test(`${name}, ${place}: from a scan to a solid`, {skip}, async (t) => {
       const address = place === "from disk" ? fileAddress : await serve(t);
       const {studio} = await newStudio(t, name, address);
-      await studio.open(scan("shell.ply"));
-      await studio.untilReady("20,000");
+      await studio.show(scan("shell.ply"));
       await studio.setHeight(2.5);
       const solid = admesh(await studio.exported("shell.stl"));
       assert.ok(Math.abs(solid.height - 5.5) < 1e-5, `${solid.height} mm`);
@@ -134,7 +137,7 @@ for (const [name, {skip}] of Object.entries(browsers))
 for (const place of ["from disk", "from a server"])
   test(`WebKit, ${place}: from a scan to a solid`, {skip: missingWebKit()}, async (t) => {
     const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // key codes of WebDriver
-    const folder = temporaryFolder(t), address = place === "from disk" ? fileAddress : await serve(t);
+    const folder = temporaryFolder(), address = place === "from disk" ? fileAddress : await serve(t);
     const page = await WebKitPage.open(t, address, folder);
     await page.untilThereIs("#samples button");
     await page.type("#file", scan("shell.ply"));
@@ -155,14 +158,12 @@ const options = {skip: browsers.chromium.skip};
 
 test("a project opens with its scan, and several files as a scene", options, async (t) => {
   const {studio, context} = await newStudio(t, "chromium", fileAddress);
-  await studio.open(scan("urn.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("urn.ply"));
   await studio.setHeight(3.25);
   const project = await studio.savedProject("urn.relievo");
   await context.clearCookies();
   const other = await newStudio(t, "chromium", fileAddress);
-  await other.studio.open(project);
-  await other.studio.untilReady("20,000");
+  await other.studio.show(project);
   assert.equal(Number(await other.studio.height.inputValue()), 3.25);
   await other.studio.open(scan("shell.ply"), scan("urn.ply"), scan("both.json"));
   await other.studio.page.getByText("both.json", {exact: true}).waitFor();
@@ -175,8 +176,7 @@ test("a project opens with its scan, and several files as a scene", options, asy
 
 test("a base takes an image, which the browser and a project keep", options, async (t) => {
   const {studio} = await newStudio(t, "chromium", fileAddress);
-  await studio.open(scan("urn.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("urn.ply"));
   await openPanels(studio.page);
   const image = (page) => page.locator("[data-option='base-image']");
   await studio.page.locator(".base-image input").setInputFiles(scan("map.png"));
@@ -187,8 +187,7 @@ test("a base takes an image, which the browser and a project keep", options, asy
   await studio.untilReady("20,000");
   assert.equal(await image(studio.page).textContent(), "map.png");
   const {studio: other} = await newStudio(t, "chromium", fileAddress);
-  await other.open(project);
-  await other.untilReady("20,000");
+  await other.show(project);
   const solids = [await studio.exported("kept.stl"), await other.exported("opened.stl")].map(admesh);
   assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // without the image the height would be 8 mm
   assert.deepEqual(solids[1], solids[0]);
@@ -208,8 +207,7 @@ test("a legend has the bytes of the native program, and a font by file stays in 
   const {studio} = await newStudio(t, "chromium", fileAddress), {page} = studio;
   const labelled = (label) => page.getByLabel(label, {exact: true});
   const ownFont = (of) => of.getByRole("button", {name: "Font own.ttf: choose another"});
-  await studio.open(scan("urn.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("urn.ply"));
   await openPanels(page);
   await enter(labelled("Resolution"), "0.6"); // such a coarse piece is made quickly
   await enter(labelled("Margin in mm"), "9");
@@ -225,8 +223,7 @@ test("a legend has the bytes of the native program, and a font by file stays in 
   await page.reload();
   await studio.untilReady("20,000");
   const {studio: other} = await newStudio(t, "chromium", fileAddress);
-  await other.open(project);
-  await other.untilReady("20,000");
+  await other.show(project);
   for (const each of [studio, other]) {
     await openPanels(each.page);
     await each.button("“ΔΗΜΟΣ”").click();
@@ -254,8 +251,7 @@ test("a depth picture is read anew as the page asks, and stays so", options, asy
 
 test("broken and huge files are refused, and the relief stays", options, async (t) => {
   const {studio} = await newStudio(t, "chromium", fileAddress);
-  await studio.open(scan("shell.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("shell.ply"));
   await studio.open(scan("broken.ply"));
   await studio.toast.getByText(/broken\.ply.*expected/).waitFor();
   await studio.untilReady("20,000");
@@ -273,8 +269,7 @@ test("a preparation is cancelled, and a tab closed in the middle of one loses no
   await studio.page.getByRole("button", {name: /green man/i}).click();
   await studio.button("Cancel").first().click();
   await studio.page.getByRole("list", {name: "Try a sample"}).waitFor();
-  await studio.open(scan("dense.ply"));
-  await studio.untilReady("100,000");
+  await studio.show(scan("dense.ply"), "100,000");
   await studio.setHeight(1.75);
   await studio.button("Choose view").click();
   await studio.page.getByRole("group", {name: "Sides"}).getByRole("button", {name: "Back", exact: true}).click();
@@ -289,8 +284,7 @@ test("a preparation is cancelled, and a tab closed in the middle of one loses no
 
 test("a second tab shows what the first one changes", options, async (t) => {
   const {studio, openPage} = await newStudio(t, "chromium", fileAddress);
-  await studio.open(scan("shell.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("shell.ply"));
   const second = await openPage();
   await second.untilReady("20,000");
   await studio.setHeight(2.2);
@@ -300,11 +294,10 @@ test("a second tab shows what the first one changes", options, async (t) => {
 });
 
 test("where the memory is not enough the page says so, and goes on", options, async (t) => {
-  const {studio} = await newStudio(t, "chromium", pageWithLittleMemory(t));
+  const {studio} = await newStudio(t, "chromium", pageWithLittleMemory());
   await studio.open(scan("large.ply"));
   await studio.page.getByText(/expected more memory/).first().waitFor();
-  await studio.open(scan("shell.ply"));
-  await studio.untilReady("20,000");
+  await studio.show(scan("shell.ply"));
   await studio.setHeight(2.5);
   assert.deepEqual(studio.errors, []);
 });

@@ -2,18 +2,12 @@
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
-import os from "node:os";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import zlib from "node:zlib";
+import {temporaryFolder} from "../../studio/tests/support.mjs";
 
 const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
-
-export function temporaryFolder(t) {
-  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-page-"));
-  t.after(() => fs.rmSync(folder, {recursive: true, force: true, maxRetries: 5}));
-  return folder;
-}
 
 const file = path.join(pageFolder, "relievo.html");
 export const fileAddress = pathToFileURL(file).href;
@@ -43,12 +37,12 @@ export async function serve(t) {
 
 // Returns the address of a page whose module can use at most 256 MiB of memory. The policy of the page has hashes of
 // scripts, but not of the module, so it need not change.
-export function pageWithLittleMemory(t) {
+export function pageWithLittleMemory() {
   const page = fs.readFileSync(file, "utf8"), [all, before, packed] = page.match(/(<script id="engine"[^>]*>)([^<]*)/);
   const module = zlib.gunzipSync(Buffer.from(packed, "base64"));
   const most = module.indexOf(Buffer.from([0x80, 0x80, 0x04]), memorySection(module)); // 65536 pages of 64 KiB
   module.set([0x80, 0xa0, 0x00], most); // 4096 pages
-  const place = path.join(temporaryFolder(t), "relievo.html");
+  const place = path.join(temporaryFolder(), "relievo.html");
   fs.writeFileSync(place, page.replace(all, () => before + zlib.gzipSync(module).toString("base64")));
   return pathToFileURL(place).href;
 }

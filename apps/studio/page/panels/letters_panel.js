@@ -6,7 +6,7 @@ import {$, make, oneAtATime, pair, textField} from "../controls.js";
 import {hasGround, shownOptions} from "../document.js";
 import {FileField, fileInput, fileNameOf, takeDropsOn} from "../file_field.js";
 import {isUnfinished} from "../inputs.js";
-import {LetterMarks} from "../stage/letter_marks.js";
+import {LetterMarks, rounded} from "../stage/letter_marks.js";
 import {shortLength, shown, typedNumber} from "../lengths.js";
 import {fileOf, listOf, withoutEmpty} from "../ornament_list.js";
 import {ARCS, FILES, KINDS, hasPlace, isOnArc, keyOfFile, nameOf, partOf} from "./ornaments.js";
@@ -96,7 +96,6 @@ export class LettersPanel {
   roomForDrawing() {
     const {size_mm: size, relief_mm: relief} = this.facts ?? {}, {margin} = this.doc.now.options;
     const low = size ? -size[1] / 2 : 0, high = relief ? relief[0][1] : low + (margin ?? 0);
-    const rounded = (mm) => Math.round(mm * 100) / 100;
     return {size: Math.max(1, rounded(SHARE_OF_GROUND * (high - low))), at: [0, rounded((low + high) / 2)]};
   }
 

@@ -4,13 +4,11 @@ import {$, ARROWS, Pause, clamp, make, pair, textField} from "../controls.js";
 import {hasScale} from "../document.js";
 import {isUnfinished} from "../inputs.js";
 import {typedNumber} from "../lengths.js";
-import {angles, degrees, direction} from "../lights.js";
+import {angles, degrees, direction, whole} from "../lights.js";
 import {GESTURE_END_MS} from "./slider.js";
 
 const LOWEST = 5, HIGHEST = 85; // range of elevations that the engine accepts, in degrees
 const RADIUS = 46; // radius of the dial in units of its SVG
-
-const whole = (azimuth) => ((Math.round(azimuth) % 360) + 360) % 360;
 
 // Parses the option's text "AZIMUTH,ELEVATION", both in degrees.
 function parse(text) {

@@ -113,13 +113,10 @@ export class PieceRows {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(PLACES[name] ?? PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);
     }
+    // Maps names of options to the elements of their controls.
+    this.elements = Object.fromEntries(Object.entries(this.rows).map(([name, {element}]) => [name, element]));
     this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);
-  }
-
-  // Returns an object that maps names of options to the elements of their controls.
-  get elements() {
-    return Object.fromEntries(Object.entries(this.rows).map(([name, {element}]) => [name, element]));
   }
 
   shapeRow(option) {

@@ -37,23 +37,25 @@ const withOption = (note) => (!note.text.includes(DOUBTFUL) ? note
 // something other than the figure fills the picture.
 const isOffered = ({option, short}) => Boolean(short) || ["crumbs", "plane"].includes(option);
 
-const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
-  make("input", {id: name, "data-option": name, type: "checkbox"}));
+// The parts of a scan that the preparation can leave out: their options, labels and tips.
+const PARTS = [
+  ["crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"],
+  ["plane", "Keep table, background", "A table or background that is found: a plane that the figure stands on or before"],
+  ["doubtful", "Keep doubtful points",
+    "Points that the file marks as noise or withheld, splats less than half opaque, and blurred outlines"],
+];
 
-// Returns the controls for the parts of a scan that the preparation can leave out.
+// Returns the controls for these parts, and for the noise.
 const viewRows = () => [
-  keepRow("crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"),
-  keepRow("plane", "Keep table, background",
-    "A table or background that is found: a plane that the figure stands on or before"),
-  keepRow("doubtful", "Keep doubtful points",
-    "Points that the file marks as noise or withheld, splats less than half opaque, and blurred outlines"),
+  ...PARTS.map(([name, label, title]) =>
+    pair(label, make("input", {id: name, "data-option": name, type: "checkbox"}), {title})),
   make("div", {class: "slider", title: "Standard deviation of the scan's noise, in distances between its points, " +
     "that is smoothed away while creases stay"},
   make("div", {class: "row"}, make("span", {class: "name"}, "Denoise"), make("output", {id: "denoise-value"})),
   make("input", {id: "denoise", "data-option": "denoise", type: "range", min: 0, max: 1, step: 0.01,
     "aria-label": "Denoise"})),
-  make("label", {class: "pair", title: "As much noise is removed as the scan shows"}, make("span", {}, "As measured"),
-    make("input", {id: "denoise-auto", type: "checkbox"})),
+  pair("As measured", make("input", {id: "denoise-auto", type: "checkbox"}),
+    {title: "As much noise is removed as the scan shows"}),
 ];
 
 export class ScanPanel {
@@ -81,9 +83,8 @@ export class ScanPanel {
       if (key === "Escape") target.value = doc.now.options.crop;
     };
     $("#crop").onchange = (event) => this.set({crop: event.target.value.replaceAll(" ", "")});
-    $("#crumbs").onchange = (event) => this.set({crumbs: event.target.checked ? "keep" : "drop"});
-    $("#plane").onchange = (event) => this.set({plane: event.target.checked ? "keep" : "drop"});
-    $("#doubtful").onchange = (event) => this.set({doubtful: event.target.checked ? "keep" : "drop"});
+    for (const [name] of PARTS)
+      $(`#${name}`).onchange = ({target}) => this.set({[name]: target.checked ? "keep" : "drop"});
     $("#denoise").oninput = (event) => this.showNoise(Number(event.target.value));
     $("#denoise").onchange = (event) => this.set({denoise: event.target.value});
     $("#denoise-auto").onchange = (event) => this.set({denoise: event.target.checked ? "auto" : $("#denoise").value});
@@ -118,15 +119,13 @@ export class ScanPanel {
   }
 
   show() {
-    const {crop, crumbs, plane, doubtful, denoise} = this.doc.now.options;
-    const key = [crop, crumbs, plane, doubtful, denoise, this.facts?.noise].join();
+    const {options} = this.doc.now, {crop, denoise} = options;
+    const key = [crop, ...PARTS.map(([name]) => options[name]), denoise, this.facts?.noise].join();
     if (key === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     if (!isUnfinished($("#crop"))) $("#crop").value = crop;
-    $("#crumbs").checked = crumbs === "keep";
-    $("#plane").checked = plane === "keep";
-    $("#doubtful").checked = doubtful === "keep";
+    for (const [name] of PARTS) $(`#${name}`).checked = options[name] === "keep";
     $("#denoise-auto").checked = denoise === "auto";
     this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));
     for (const cut of this.cuts)

@@ -2,15 +2,15 @@
 // file and opens it.
 
 import {$, make, pair, textField} from "../controls.js";
+import {fileNameOf} from "../file_field.js";
 import {typedNumber} from "../lengths.js";
 
-const nameOf = (path) => path.split(/[/\\]/).at(-1);
 const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};
 const MOST_NAMES = 3; // largest number of models that the name of a scene mentions
 
 // Returns a scene file with the models. Models without positions are placed side by side.
 export function sceneFile(models) {
-  const names = models.slice(0, MOST_NAMES).map(({file}) => nameOf(file).replace(/\.[a-z0-9]+$/i, ""));
+  const names = models.slice(0, MOST_NAMES).map(({file}) => fileNameOf(file).replace(/\.[a-z0-9]+$/i, ""));
   const name = names.join(" + ") + (models.length > MOST_NAMES ? " + …" : "");
   return new File([JSON.stringify({models})], `${name}.json`, {type: "application/json"});
 }
@@ -28,7 +28,7 @@ export class ScenePanel {
   }
 
   row(model, at) {
-    const name = nameOf(model.file), [across, upright, roll] = model.rotate;
+    const name = fileNameOf(model.file), [across, upright, roll] = model.rotate;
     const field = (label, range, value, part) => {
       const show = () => (input.value = value), take = (text) => {
         const number = typedNumber(text, range, this.say);

@@ -30,13 +30,10 @@ export class Sliders {
       slider.number.dataset.option = name;
       $(FIELDS[name].place).append(slider.element);
     }
+    // Maps names of options to the sliders' elements.
+    this.elements = Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
     this.all.height.element.after(make("p", {id: "reach", class: "note", role: "status"}));
     $("#method").onchange = (event) => this.changeMethod(event.target.value);
-  }
-
-  // Returns an object that maps names of options to the sliders' elements.
-  get elements() {
-    return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
   }
 
   shownWidth = () => Number((this.doc.now.options.width ?? this.facts()?.width_mm ?? defaultOf("width")).toFixed(4));

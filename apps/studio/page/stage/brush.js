@@ -2,7 +2,7 @@
 // positions to points of the model. The unfinished stroke is already in the document, so that pictures show it.
 
 import {$, clamp, make, pair} from "../controls.js";
-import {hasScale} from "../document.js";
+import {hasScale, isMirrored} from "../document.js";
 import {AREAS, KINDS, Painting} from "./painting.js";
 
 const SLIDERS = {
@@ -84,16 +84,12 @@ export class Brush {
 
   radiusIn = (stage) => this.scaleOf(stage).longerMm * this.settings.size / 200 * stage.pixelsPerMm;
 
-  get isMirroredForm() {
-    return ["mirror", "die"].includes(this.doc.now.options.form);
-  }
-
   // Converts a pixel to a position in the figure's box, as shares of its width and height. As the model itself is not
   // mirrored, positions on mirrored pieces count from the right.
   shareOf(stage, [px, py]) {
     const {relief_mm: [low, high]} = stage.facts, place = stage.toPlace(px, py);
     const [u, v] = place.map((x, i) => (x - low[i]) / (high[i] - low[i]));
-    return [this.isMirroredForm ? 1 - u : u, v];
+    return [isMirrored(this.doc.now) ? 1 - u : u, v];
   }
 
   // Returns the reason why nothing can be painted now; an empty text if painting is possible.
@@ -112,7 +108,7 @@ export class Brush {
     const {relief_mm: [low, high]} = stage.facts, {rotation, origin, size} = this.modelFacts();
     const [u, v] = [0, 1].map((row) =>
       (point.reduce((sum, x, i) => sum + rotation[3 * row + i] * x, -origin[row])) / size[row]);
-    return stage.toPixels([this.isMirroredForm ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
+    return stage.toPixels([isMirrored(this.doc.now) ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
   }
 
   // Returns the point at a position in the figure's box, as deep in the view as the point `other`, in scan coordinates.

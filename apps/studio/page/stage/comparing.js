@@ -3,6 +3,7 @@
 // model's plate is the figure with its margin, so the two pictures need different zooms.
 
 import {$, clamp, make} from "../controls.js";
+import {isMirrored} from "../document.js";
 import {isRound} from "./measure.js";
 
 const NEAR = 12; // the pointer grabs the divider within this distance, in pixels
@@ -73,14 +74,10 @@ export class Comparing {
   request(isFine) {
     const {stage} = this, request = stage.request({...stage.pictureSize(isFine), fine: isFine, original: true,
       attention: Boolean(this.hasAttention)});
-    const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
+    const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = isMirrored(stage.doc.now) ? -1 : 1;
     request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};
     request.light = [sign * light[0], light[1], light[2]];
     return request;
-  }
-
-  get isMirrored() {
-    return this.stage.on.placing.isMirrored;
   }
 
   // Draws the model, or the snapshot, at the size and position of the relief, unless the same picture is already drawn.
@@ -108,7 +105,7 @@ export class Comparing {
     [canvas.width, canvas.height] = [image.width, image.height];
     context.putImageData(image, 0, 0);
     if (this.shownRival) return;
-    if (this.isMirrored) {
+    if (isMirrored(this.stage.doc.now)) {
       context.globalCompositeOperation = "copy";
       context.setTransform(-1, 0, 0, 1, image.width, 0);
       context.drawImage(canvas, 0, 0);

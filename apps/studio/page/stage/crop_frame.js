@@ -1,7 +1,7 @@
 // Crops the scan: shows a picture of the whole scan with a frame that the user draws, moves and resizes. The relief
 // leaves out everything outside the frame.
 
-import {$, clamp, make, paint} from "../controls.js";
+import {$, clamp, make, paint, placeIn} from "../controls.js";
 import {directionsOf} from "../directions.js";
 import {WHOLE, cropText, numbersOf} from "../panels/scan_panel.js";
 
@@ -116,8 +116,7 @@ export class CropFrame {
     const place = (act) => (event) => {
       event.stopPropagation(); // the stage below the frame must not handle it
       if (event.target.closest("button")) return;
-      const {left, top} = element.getBoundingClientRect();
-      act(event.clientX - left, event.clientY - top, event);
+      act(...placeIn(element, event), event);
     };
     element.onpointerdown = place((x, y, event) => this.press(x, y, event));
     const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // e.g. a palm while a pen draws

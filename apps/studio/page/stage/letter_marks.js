@@ -1,16 +1,15 @@
 // Draws the outlines of texts and borders over the picture while the picture itself lacks them, and the handle that
 // moves the chosen text or drawing. A drag moves the outlines at once; the picture follows later.
 
-import {ARROWS, Pause, make} from "../controls.js";
-import {degrees} from "../lights.js";
+import {ARROWS, Pause, make, placeIn} from "../controls.js";
+import {isMirrored} from "../document.js";
+import {degrees, radians, whole} from "../lights.js";
 import {angleOf, hasPlace, isOnArc, nameOf} from "../panels/ornaments.js";
 import {GESTURE_END_MS} from "../panels/slider.js";
 
 const BESIDE = 30; // distance from the middle of the letters to their handle, in pixels
 
-const rounded = (mm) => Math.round(mm * 100) / 100;
-const whole = (angle) => ((Math.round(angle) % 360) + 360) % 360;
-const radians = (angle) => angle * Math.PI / 180;
+export const rounded = (mm) => Math.round(mm * 100) / 100;
 
 // Returns the outlines as the data of an SVG path, in mm.
 const pathOf = (outlines) => outlines.map((numbers) => {
@@ -50,16 +49,16 @@ export class LetterMarks {
     this.stage.drawOverlay();
   }
 
-  get isMirrored() {
-    return ["mirror", "die"].includes(this.doc.now.options.form);
+  get sign() {
+    return isMirrored(this.doc.now) ? -1 : 1;
   }
 
   // Returns an ornament's movement since the engine placed it, as an SVG transform, and its handle's position in mm.
   movement(ornament, {ornament: was, at, middle, radius}) {
-    const sign = this.isMirrored ? -1 : 1;
+    const {sign} = this;
     if (isOnArc(ornament) && isOnArc(was)) {
       const turn = sign * (angleOf(ornament) - angleOf(was));
-      const angle = radians(sign * angleOf(ornament) + (this.isMirrored ? 180 : 0));
+      const angle = radians(sign * angleOf(ornament) + (sign < 0 ? 180 : 0));
       return {transform: `rotate(${turn})`, handle: [radius * Math.cos(angle), radius * Math.sin(angle)]};
     }
     const to = ornament.at ?? at, by = to && at && hasPlace(ornament) ? [sign * (to[0] - at[0]), to[1] - at[1]] : [0, 0];
@@ -103,10 +102,7 @@ export class LetterMarks {
   }
 
   listen() {
-    const {handle} = this, place = ({clientX, clientY}) => {
-      const {left, top} = this.stage.element.getBoundingClientRect();
-      return this.stage.toPlace(clientX - left, clientY - top);
-    };
+    const {handle, stage} = this, place = (event) => stage.toPlace(...placeIn(stage.element, event));
     handle.onpointerdown = (event) => {
       event.stopPropagation(); // the picture's tool must not handle it
       handle.setPointerCapture(event.pointerId);
@@ -130,7 +126,7 @@ export class LetterMarks {
 
   // Moves the chosen ornament from its place at the beginning of the drag to that of the pointer.
   move([x, y]) {
-    const {from, ornament, at} = this.drag, sign = this.isMirrored ? -1 : 1;
+    const {drag: {from, ornament, at}, sign} = this;
     if (!isOnArc(ornament)) return this.change({at: [at[0] + sign * (x - from[0]), at[1] + y - from[1]]});
     const turn = degrees(Math.atan2(y, x) - Math.atan2(from[1], from[0]));
     this.change({angle: angleOf(ornament) + sign * turn});
@@ -141,7 +137,7 @@ export class LetterMarks {
     if (!step || !ornament) return;
     event.preventDefault();
     event.stopPropagation();
-    const sign = this.isMirrored ? -1 : 1, [right, up] = step;
+    const {sign} = this, [right, up] = step;
     const {at = this.placed[chosen]?.at ?? [0, 0]} = ornament, mm = event.shiftKey ? 0.1 : 0.5;
     if (!isOnArc(ornament)) this.change({at: [at[0] + sign * right * mm, at[1] + up * mm]});
     else this.change({angle: angleOf(ornament) - sign * (right || up) * (event.shiftKey ? 1 : 5)});

@@ -1,5 +1,7 @@
 // Two fingers on the relief move the picture and zoom. With the tool Place they scale and turn the figure.
 
+import {placeIn} from "../controls.js";
+
 const SLACK = 8; // two fingers that turn by less than this angle in degrees only scale
 
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
@@ -16,19 +18,15 @@ function takePinches(element, {begin, move, end}) {
     return {middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], apart: Math.max(1, Math.hypot(dx, dy)),
       angle: Math.atan2(-dy, dx) * 180 / Math.PI};
   };
-  const place = ({clientX, clientY}) => {
-    const {left, top} = element.getBoundingClientRect();
-    return [clientX - left, clientY - top];
-  };
   element.addEventListener("pointerdown", (event) => {
     if (event.pointerType !== "touch") return;
-    fingers.set(event.pointerId, place(event));
+    fingers.set(event.pointerId, placeIn(element, event));
     last = measure();
     if (last) begin();
   });
   element.addEventListener("pointermove", (event) => {
     if (!fingers.has(event.pointerId)) return;
-    fingers.set(event.pointerId, place(event));
+    fingers.set(event.pointerId, placeIn(element, event));
     const now = measure();
     if (now) move(last.middle, now.middle, now.apart / last.apart, within180(now.angle - last.angle));
     last = now;

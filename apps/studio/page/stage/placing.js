@@ -2,6 +2,7 @@
 
 import {clamp} from "../controls.js";
 import {viewTurned} from "../directions.js";
+import {isMirrored} from "../document.js";
 import {FREE_OUTLINES} from "../panels/kinds.js";
 
 const LEAST = 1, MOST = 1e5; // range of a figure's longer side in mm
@@ -13,10 +14,6 @@ export class Placing {
   // `shownWidth` returns the longer side of the figure in mm, `setWidth` sets it, and `say` shows a line to the user.
   constructor({doc, entries, shownWidth, setWidth, say}) {
     Object.assign(this, {doc, entries, shownWidth, setWidth, say});
-  }
-
-  get isMirrored() {
-    return ["mirror", "die"].includes(this.doc.now.options.form);
   }
 
   // Begins a movement on a piece of the given size. If the plate's size depends on the figure, the plate keeps its
@@ -37,7 +34,7 @@ export class Placing {
 
   // Moves the figure from its initial position by millimetres to the right and up in the picture.
   move(right, up) {
-    const x = this.from[0] + (this.isMirrored ? -right : right), y = this.from[1] + up;
+    const x = this.from[0] + (isMirrored(this.doc.now) ? -right : right), y = this.from[1] + up;
     const isMiddle = Math.hypot(x, y) < 0.2;
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
@@ -54,7 +51,7 @@ export class Placing {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
     const {options} = this.doc.now;
-    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)}, this.doc.gesture);
+    this.doc.change({options: viewTurned(options, isMirrored(this.doc.now) ? -angle : angle)}, this.doc.gesture);
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 

@@ -1,8 +1,7 @@
 // Turns the model on the picture. A drag shows the relief from other sides, and the last view becomes that of the
 // document.
 
-import {SIDES, directionsOf, optionsOf, turnedByHand} from "../directions.js";
-import {cross, dot, upright} from "../vectors.js";
+import {SIDES, cross, directionsOf, dot, optionsOf, turnedByHand, upright} from "../directions.js";
 
 const NEAR = Math.cos(6 * Math.PI / 180); // a view within 6 degrees of a side or of level snaps to it
 const HALF_TURN = 0.9; // drag length for half a turn, as a fraction of the picture's shorter side
