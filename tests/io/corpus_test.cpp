@@ -27,9 +27,7 @@ Result<CloudFile> read_at(const fs::path& path) {
   const auto beside = [&](const std::string& name) -> Result<std::vector<std::byte>> {
     if (!fs::is_regular_file(path.parent_path() / name))
       return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
-    const std::string other = content_of(path.parent_path() / name);
-    const auto bytes = std::as_bytes(std::span(other));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    return bytes_of(content_of(path.parent_path() / name));
   };
   return read_cloud(std::as_bytes(std::span(text)), path.string(), beside);
 }

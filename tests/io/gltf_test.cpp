@@ -17,10 +17,9 @@ namespace {
 // requests to `asked`.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
-  return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
+  return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) {
     if (asked) asked->push_back(name);
-    if (const auto found = files.find(name); found != files.end()) return bytes_of(found->second);
-    return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
+    return files_beside(files)(name);
   });
 }
 

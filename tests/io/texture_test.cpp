@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/format_samples.h"
@@ -50,11 +48,7 @@ TEST(Texture, GreyPicturesAreGreyAndOtherFilesNone) {
 using Files = std::map<std::string, std::string>;
 
 CloudFile read_with(const std::string& text, const std::string& name, const Files& files) {
-  return value_of(
-      read_cloud(bytes_of(text), name, [&](const std::string& wanted) -> Result<std::vector<std::byte>> {
-        if (const auto found = files.find(wanted); found != files.end()) return bytes_of(found->second);
-        return std::unexpected(Error{ErrorKind::input, wanted, {}, "expected a file"});
-      }));
+  return value_of(read_cloud(bytes_of(text), name, files_beside(files)));
 }
 
 // The corners of both triangles are at the centres of three pixels: the lower left pixel, its right neighbour
