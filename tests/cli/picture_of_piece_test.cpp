@@ -53,9 +53,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
 
 // Removes the camera's angles, which are not options, from a piece. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
-  Camera camera;
-  camera.yaw_deg = piece.value("yaw", 0.);
-  camera.pitch_deg = piece.value("pitch", 0.);
+  Camera camera{.yaw_deg = piece.value("yaw", 0.), .pitch_deg = piece.value("pitch", 0.)};
   piece.erase("yaw");
   piece.erase("pitch");
   return camera;

@@ -266,8 +266,7 @@ TEST(StreamFront, ReadsNothingBehindTheEndOfTheFileForNoPoints) {
 
 TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   const Cloud whole = test::sphere(60000, 1);
-  ReliefOptions options;
-  options.height_mm = 5;
+  ReliefOptions options{{.height_mm = 5}};
   const auto direct = make_relief(whole, options);
   const auto by_stream = make_relief(streamed(write_ply(whole), front, 30000).cloud, options);
   ASSERT_TRUE(direct && by_stream);

@@ -52,12 +52,8 @@ const Bodies& bodies() {
 }
 
 RenderOptions options_for(Material material, bool is_fine, double yaw_deg) {
-  RenderOptions options;
-  options.width = 330;
-  options.height = 300;
-  options.mm_per_unit = mm_per_unit;
-  options.material = material;
-  options.is_fine = is_fine;
+  RenderOptions options{
+      .width = 330, .height = 300, .mm_per_unit = mm_per_unit, .material = material, .is_fine = is_fine};
   options.camera.yaw_deg = yaw_deg;
   options.camera.pitch_deg = yaw_deg / 2;
   return options;
@@ -101,10 +97,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
 
 // A coin whose rim has a bevel.
 PlateOptions coin_of(double rim_mm) {
-  PlateOptions plate;
-  plate.outline = Outline::circle;
-  plate.rim = {3, rim_mm, .3 * std::abs(rim_mm)};
-  return plate;
+  return {.outline = Outline::circle, .rim = {3, rim_mm, .3 * std::abs(rim_mm)}};
 }
 
 struct NamedPlate {
@@ -115,11 +108,9 @@ struct NamedPlate {
 BaseOptions uneven_base() {
   Image<float> heights = filled_image(4, 3, 0.F);
   heights.pixels = {0, 1, 3, 2, 1, 0, 2, 1, 2, 2, 0, 1};
-  BaseOptions base;
-  base.kind = BaseKind::image;
-  base.height_mm = 4;
-  base.image = std::make_shared<const Image<float>>(std::move(heights));
-  return base;
+  return {.kind = BaseKind::image,
+          .height_mm = 4,
+          .image = std::make_shared<const Image<float>>(std::move(heights))};
 }
 
 std::vector<std::pair<std::string, BaseOptions>> raised_and_hollow_bases() {
@@ -144,8 +135,7 @@ PlateOptions in_form(PlateOptions plate, Form form) {
 std::vector<NamedPlate> plates_of_all_kinds() {
   std::vector<NamedPlate> plates{{"coin", coin_of(2)}};
   for (const Form form : {Form::relief, Form::mirror, Form::die}) {
-    PlateOptions plate;
-    plate.outline = Outline::none;
+    PlateOptions plate{.outline = Outline::none};
     plates.push_back({cat("no ground ", name_in(form_choices, form)), in_form(plate, form)});
     plate.outline = Outline::ellipse;
     plate.size_mm = {90, 120};
@@ -260,8 +250,7 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   renderer.render(options_for(Material::plaster, true, 0), again);
   EXPECT_EQ(different_values(first.image, again.image), 0U);
   EXPECT_GT(different_values(first.image, other.image), 0U);
-  RenderOptions options;
-  options.width = 0;
+  RenderOptions options{.width = 0};
   renderer.render(options, other);
   EXPECT_TRUE(other.image.pixels.empty());
 }

@@ -257,13 +257,11 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
 // Shadows are computed in the front view, where the sides of a half cylinder are seen almost edge on: along
 // each edge, strips of 2 % of its width lean by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
-  ReliefOptions options;
-  options.height_mm = 4;
+  ReliefOptions options{{.height_mm = 4}};
   options.wrap = *parse_wrap("cylinder:turn=180");
   const auto made = value_of(make_relief(test::sphere(20000, 1), options));
   SolidRenderer renderer(std::make_shared<const Solid>(made.solid));
-  RenderOptions looks;
-  looks.width = 500;
+  RenderOptions looks{.width = 500};
   Picture shaded, plain;
   renderer.render(looks, shaded);
   looks.has_shadows = false;

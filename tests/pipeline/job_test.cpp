@@ -42,8 +42,7 @@ TEST(Job, SaysWhatOfTheScanIsLeftOut) {
 
 TEST(LiveModel, MakesTheFramesOfAFrameMaker) {
   LiveModel live = *prepare(job());
-  ReliefOptions options;
-  options.height_mm = 2;
+  ReliefOptions options{{.height_mm = 2}};
   options.tone = *parse_tone_curve("0,0.1;0.5,0.6;1,0.3");
   const LiveFrame made = *live.frame(options);
   Frame frame;
@@ -91,8 +90,7 @@ TEST(LiveModel, FramesOnAPlateAreAsHighAsTheSolidWhereNoHeightIsGiven) {
 
 TEST(LiveModel, DrawsAndRefuses) {
   LiveModel live = *prepare(job());
-  RenderOptions render;
-  render.width = 80;
+  RenderOptions render{.width = 80};
   const auto picture = live.picture({}, render);
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_EQ(picture->image.width, 80);

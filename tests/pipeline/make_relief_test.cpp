@@ -26,11 +26,7 @@ Cloud small_figure() {
 }
 
 TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
-  ReliefOptions options;
-  options.width_mm = 60;
-  options.height_mm = 2.5;
-  options.margin_mm = 4;
-  options.thickness_mm = 1.5;
+  ReliefOptions options{{.width_mm = 60, .height_mm = 2.5, .margin_mm = 4, .thickness_mm = 1.5}};
   const auto made = value_of(make_relief(figure(), options));
   EXPECT_EQ(check_solid(made.solid), "");
   const Box box = Box::of(made.solid.points);
@@ -42,9 +38,7 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
 
 TEST(MakeRelief, IsAsHighAsAShareOfTheDiagonal) {
   const Cloud cloud = small_figure();
-  ReliefOptions options;
-  options.width_mm = 60;
-  options.resolution_mm = .5;
+  ReliefOptions options{{.width_mm = 60, .resolution_mm = .5}};
   for (const Method method : {Method::layered, Method::paper}) {
     options.method = method;
     options.height_of_diagonal = .02;
@@ -101,10 +95,7 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
 TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   const auto model = prepare(small_figure(), View{});
   ASSERT_TRUE(model) << model.error().message();
-  ReliefOptions options;
-  options.height_mm = 2;
-  options.margin_mm = 3;
-  options.rim_mm = 2;
+  ReliefOptions options{{.height_mm = 2, .margin_mm = 3, .rim_mm = 2}};
   options.plate_mm = Vec2(120, 70);
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::ellipse}) {
     options.outline = outline;
@@ -162,9 +153,7 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
   test::Random random(5);
   for (const auto& [form_name, form] : form_choices)
     for (const Outline outline : {Outline::rectangle, Outline::circle, Outline::none}) {
-      ReliefOptions options;
-      options.height_mm = 6;
-      options.thickness_mm = 1.25;
+      ReliefOptions options{{.height_mm = 6, .thickness_mm = 1.25}};
       options.form = form;
       options.outline = outline;
       const auto made = value_of(make_relief(*model, options));
@@ -181,8 +170,7 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
 }
 
 TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
-  ReliefOptions options;
-  options.width_mm = 60;
+  ReliefOptions options{{.width_mm = 60}};
   const auto made = value_of(make_relief(figure(), options));
   EXPECT_EQ(made.report.method, Method::layered);
   EXPECT_NEAR(made.report.height_mm, 3, 1e-9);
@@ -217,8 +205,7 @@ TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
 
 TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   const auto model = prepare(figure(), View{});
-  ReliefOptions options;
-  options.width_mm = 60;
+  ReliefOptions options{{.width_mm = 60}};
   const double free = *highest_with_draft(*model, options);
   options.draft_deg = 50;
   const double highest = *highest_with_draft(*model, options);
@@ -250,10 +237,7 @@ TEST(MakeRelief, RefusesAModelThatIsPreparedForLess) {
 
 TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
-  ReliefOptions options;
-  options.height_mm = 2;
-  options.rim_mm = 3;
-  options.draft_deg = 20;
+  ReliefOptions options{{.height_mm = 2, .draft_deg = 20, .rim_mm = 3}};
   for (const double share : {.9, 1.1}) {  // relative to the bevel that has the draft angle
     options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
@@ -268,8 +252,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
 TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
   const Cloud ring = test::torus(8000, 1.5, .4);
   for (const bool has_plane : {true, false}) {
-    View view;
-    view.has_plane = has_plane;
+    View view{.has_plane = has_plane};
     const auto model = prepare(ring, view);
     const auto made = value_of(make_relief(*model, {}));
     EXPECT_FALSE(made.report.plane);
@@ -280,8 +263,7 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
 // The relief's bounding box moves by the whole shift, and stays inside the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
-  ReliefOptions options;
-  options.height_mm = 2;
+  ReliefOptions options{{.height_mm = 2}};
   options.outline = Outline::round;
   options.plate_mm = Vec2(120, 90);
   options.width_mm = 40;
@@ -338,8 +320,7 @@ TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
 }
 
 TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
-  ReliefOptions options;
-  options.margin_mm = -1;
+  ReliefOptions options{{.margin_mm = -1}};
   EXPECT_EQ(make_relief(Cloud{}, options).error().kind, ErrorKind::option);
 }
 
@@ -380,8 +361,7 @@ TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
 }
 
 TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
-  ReliefOptions options;
-  options.saturation = 1;
+  ReliefOptions options{{.saturation = 1}};
   options.tone = *parse_tone_curve("0.5,0");
   // The curve flattens all slopes, which is refused.
   expect_error(make_relief(figure(), options), ErrorKind::geometry);

@@ -91,8 +91,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
 // The limit removes the rounding at the edges, which leaves a crease around each button.
 TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
   for (const Form form : {Form::relief, Form::die}) {
-    ReliefOptions options;
-    options.draft_deg = 30;
+    ReliefOptions options{{.draft_deg = 30}};
     options.form = form;
     const MadeRelief made = made_of(two_buttons(20000), options);
     EXPECT_LE(steepest_slope(made.solid), slope_at_draft(30));

@@ -22,8 +22,7 @@ double terrain(double column, double row) {
 
 // Returns the tile that begins at the given column of the map.
 Cloud tile(int first_column, DepthValues values = DepthValues::height) {
-  DepthOptions options;
-  options.values = values;
+  DepthOptions options{.values = values};
   DepthImage image;
   image.values.resize(columns, rows);
   for (int r = 0; r < rows; ++r)
@@ -34,11 +33,7 @@ Cloud tile(int first_column, DepthValues values = DepthValues::height) {
 
 // Returns the options of tiles with pixels of 1 mm.
 ReliefOptions tile_options() {
-  ReliefOptions options;
-  options.width_mm = columns;
-  options.margin_mm = .01;
-  options.mm_per_value = mm_per_value;
-  return options;
+  return {{.width_mm = columns, .mm_per_value = mm_per_value, .margin_mm = .01}};
 }
 
 MadeRelief relief_of_tile(int first_column, const ReliefOptions& options) {
@@ -98,8 +93,7 @@ TEST(VerticalScale, OfDepthsIsTheirDifference) {
 
 // The values of a scan are its own lengths, so a scale of 1 keeps its proportions.
 TEST(VerticalScale, OfAScanIsThatOfItsLengths) {
-  ReliefOptions options;
-  options.width_mm = 40;
+  ReliefOptions options{{.width_mm = 40}};
   options.mm_per_value = 20;  // the radius of the sphere is 1
   const auto made = value_of(make_relief(test::sphere(20000, 1), options));
   EXPECT_NEAR(made.report.height_mm, 20, .5);

@@ -15,9 +15,7 @@ namespace relievo {
 namespace {
 
 Ornament ornament(OrnamentKind kind) {
-  Ornament made;
-  made.kind = kind;
-  return made;
+  return {.kind = kind};
 }
 
 using test::ellipse, test::plate_of, test::pyramid_front;

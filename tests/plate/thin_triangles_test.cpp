@@ -87,8 +87,7 @@ TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
   for (const Outline outline : {Outline::none, Outline::rectangle})
     for (const double angle : {0., .1, .3, .7}) {
-      PlateOptions options;
-      options.outline = outline;
+      PlateOptions options{.outline = outline};
       const Solid solid = test::plate_of(test::turned_grid_front(40, angle, bumps), options);
       EXPECT_EQ(check_solid(solid), "");
       EXPECT_EQ(test::self_intersections(solid), "") << angle;

@@ -76,8 +76,7 @@ TEST(Attention, MovesWithTheModel) {
   Cloud moved = cloud;
   for (Vec3& p : moved.points) p = 7 * (turn * p) + Vec3(10, -20, 5);
   for (Vec3f& n : moved.normals) n = (turn * n.cast<double>()).cast<float>();
-  View view;
-  view.R_view_model = turn.transpose();
+  View view{.R_view_model = turn.transpose()};
   const std::vector<double> a = means_of(test::surface_of(cloud)),
                             b = means_of(test::surface_of(moved, view));
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], .02);
@@ -179,8 +178,7 @@ TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {
 TEST(AttentionOfReliefs, IsThatOfFramesAndLeavesNothingBehind) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
   const auto frame_of = [](FrameMaker& maker, const Shape& shape) {
-    FrameOptions options;
-    options.shape = shape;
+    FrameOptions options{.shape = shape};
     Frame frame;
     maker.make(options, frame);
     return frame;

@@ -46,8 +46,7 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
 // All points of a level face have the same depth, and all points of a cloud of four are on the boundary. So
 // no method gives either cloud a height.
 TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
-  Cloud four;
-  four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
+  Cloud four{.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}}};
   for (const Cloud& cloud : {roof(0, 1000), four}) {
     const ReliefModel model = test::prepared(cloud);
     for (const MethodInfo& info : methods) {
@@ -121,8 +120,7 @@ TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
 
 TEST(Gradient, EqualBandWeightsChangeNothing) {
   const ReliefModel model = test::prepared(test::sphere(20000, 1));
-  GradientOptions options;
-  options.band_weights = {1};
+  GradientOptions options{.band_weights = {1}};
   const Relief one = gradient_relief(model, .1, options);
   options.band_weights = {1, 1, 1, 1};
   const Relief four = gradient_relief(model, .1, options);
@@ -143,9 +141,7 @@ TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
   const Cloud ramp = test::height_field(
       40000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });
   const Surface surface = test::surface_of(ramp);
-  EqualiseOptions options;
-  options.windows = 1;
-  options.picture_px = 128;
+  EqualiseOptions options{.picture_px = 128, .windows = 1};
   options.largest_window_px = 1024;  // the whole picture
   const Relief relief = equalised_relief(surface, 1, options);
   EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);

@@ -90,8 +90,7 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
   EXPECT_GT(std::ranges::count_if(lines, [](float line) { return line > .9F; }), 50);
   FrameMaker frames(model);
   Frame frame, level;
-  FrameOptions options;
-  options.shape = layered_shape();
+  FrameOptions options{.shape = layered_shape()};
   frames.make(options, level);
   options.shape = lined;
   frames.make(options, frame);

@@ -262,8 +262,7 @@ TEST(Draft, CanBeCancelled) {
 // Measures the draft angle in files, after all steps that may change a front.
 TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = prepared(figure());
-  ReliefOptions options;
-  options.height_mm = 8;
+  ReliefOptions options{{.height_mm = 8}};
   for (const Form form : {Form::relief, Form::mirror, Form::die})
     for (const Outline outline : {Outline::rectangle, Outline::circle, Outline::none})
       for (const bool is_simple : {false, true}) {
@@ -286,10 +285,7 @@ TEST(Draft, IsKeptInFiles) {
 
 TEST(Draft, RimsLeanAsMuch) {
   const ReliefModel model = prepared(figure(6000));
-  ReliefOptions options;
-  options.height_mm = 4;
-  options.draft_deg = 40;
-  options.rim_mm = 5;
+  ReliefOptions options{{.height_mm = 4, .draft_deg = 40, .rim_mm = 5}};
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::hexagon})
     for (const Form form : {Form::relief, Form::die}) {
       options.outline = outline;
@@ -308,9 +304,7 @@ TEST(Draft, RimsLeanAsMuch) {
 }
 
 TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
-  ReliefOptions options;
-  options.alpha = .5;
-  options.draft_deg = 60;
+  ReliefOptions options{{.alpha = .5, .draft_deg = 60}};
   EXPECT_LE(value_of(make_relief(figure(6000), options)).report.steepest_deg, 30);
   options.form = Form::lithophane;
   EXPECT_TRUE(make_relief(figure(6000), options).error().message().contains("draft"));

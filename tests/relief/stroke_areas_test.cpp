@@ -64,8 +64,7 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
   const Cloud ball = test::sphere(40000, 1);
   const Stroke stroke = lasso_of(ellipse(.5, .3, .85), Vec3::UnitZ());
   for (const double degrees : {0., 25., 50., -35.}) {
-    View view;
-    view.R_view_model = turned(degrees, Vec3(1, 2, 0).normalized());
+    View view{.R_view_model = turned(degrees, Vec3(1, 2, 0).normalized())};
     const Surface surface = surface_of(ball, view);
     const std::vector<std::uint8_t> is_in = members(surface, points_of(surface, stroke));
     std::size_t count = 0;

@@ -89,8 +89,7 @@ TEST(StrokeMask, BelongsToTheModelInEveryView) {
     const Mat3 turn = (Eigen::AngleAxisd(turn_deg.x() / 57.3, Vec3::UnitY()) *
                        Eigen::AngleAxisd(turn_deg.y() / 57.3, Vec3::UnitX()))
                           .toRotationMatrix();
-    View view;
-    view.R_view_model = turn;
+    View view{.R_view_model = turn};
     const Surface surface = surface_of(ball, view);
     const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, at));
     ASSERT_GT(mask.points.size(), 400U);
@@ -286,9 +285,7 @@ Shape painted(const Strokes& strokes) {
 }
 
 FrameOptions options_of(const Shape& shape) {
-  FrameOptions options;
-  options.shape = shape;
-  return options;
+  return {.shape = shape};
 }
 
 const Strokes beside_the_top{dab(Brush::sharpen, {-.2, .2, -1.117}, .2),

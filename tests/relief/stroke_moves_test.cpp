@@ -156,10 +156,7 @@ TEST(StrokeMoves, ProtectNothingElse) {
   EXPECT_GT(most, .01 * .2);
   FrameMaker frames(model);
   Frame frame;
-  FrameOptions options;
-  options.shape = painted(stroke);
-  options.height = .2;
-  options.height_tolerance = 1e-5;
+  FrameOptions options{.shape = painted(stroke), .height = .2, .height_tolerance = 1e-5};
   frames.make(options, frame);
   for (std::size_t i = 0; i < plain.heights.size(); ++i)
     EXPECT_NEAR(frame.heights[i], changed.heights[i], 2e-3 * .2);

@@ -156,9 +156,7 @@ TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
   CloudFile file;
   file.mesh = test::sphere_mesh(1, 24);  // its points alone are 0.26 apart, too far for a good relief
   file.cloud.points = file.mesh.points;
-  ReliefOptions options;
-  options.height_mm = 5;
-  options.points = 20000;
+  ReliefOptions options{{.height_mm = 5, .points = 20000}};
   const auto made = value_of(make_relief(file, options));
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 5, .01);

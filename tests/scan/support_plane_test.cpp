@@ -39,9 +39,7 @@ Vec3 tilted(double deg) {
 }
 
 Surface surface_of(const Cloud& cloud, bool has_plane = true) {
-  View view;
-  view.has_plane = has_plane;
-  view.denoise = 0;
+  View view{.has_plane = has_plane, .denoise = 0};
   return find_surface(cloud, view).value();
 }
 

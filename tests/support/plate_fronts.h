@@ -54,8 +54,7 @@ inline HeightFieldMesh flat_front(const Grid& grid) {
 // Divides a convex polygon with counter-clockwise corners into a fan of triangles at the height `ground_mm`.
 // pyramid_front() connects the sides to an apex above the centre instead.
 inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
-  HeightFieldMesh front;
-  front.ground_mm = ground_mm;
+  HeightFieldMesh front{.ground_mm = ground_mm};
   for (Index i = 0; i < polygon.size(); ++i) {
     front.points.emplace_back(polygon[i].x(), polygon[i].y(), ground_mm);
     front.hull.push_back(i);
