@@ -43,8 +43,8 @@ ReadSolid solid_in_3mf(const std::string& file) {
 // relief's highest point.
 TEST_F(CliSolids, Writes3mfAndTiff) {
   const std::string options = "make torus.ply --height 3 --tolerance 0.05 --quiet";
-  EXPECT_EQ(run(options + " -o t.3mf --heightmap h.tif --report r.json").exit_code, 0);
-  EXPECT_EQ(run(options + " -o t.stl").exit_code, 0);
+  must_run(options + " -o t.3mf --heightmap h.tif --report r.json");
+  must_run(options + " -o t.stl");
   const ReadSolid solid = solid_in_3mf(read_all(folder_ / "t.3mf"));
   EXPECT_TRUE(solid.is_closed());
   EXPECT_TRUE(solid.triangles == solid_in_stl(read_all(folder_ / "t.stl")).triangles);
@@ -87,10 +87,9 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   for (int i = 0; i < 60 * 40; ++i)
     photo.pixels.insert(photo.pixels.end(), 3, static_cast<std::uint8_t>(255 * (i % 60) / 59));
   write_all(folder_ / "photo.png", write_png(photo));
-  const Outcome outcome =
-      run("make photo.png -o l.stl --form lithophane --depth-values luminance --width 60 "
-          "--heightmap l.tif --heightmap-size 140");
-  EXPECT_EQ(outcome.exit_code, 0);
+  const Outcome outcome = must_run(
+      "make photo.png -o l.stl --form lithophane --depth-values luminance --width 60 "
+      "--heightmap l.tif --heightmap-size 140");
   EXPECT_TRUE(outcome.err.contains("photo.png: 60 x 40 pixels, whose brightness becomes thickness"))
       << outcome.err;
   const ReadSolid solid = solid_in_stl(read_all(folder_ / "l.stl"));
@@ -111,8 +110,7 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
 // The arc of the ground is as long as the flat plate. Its chord is the width of the bent solid.
 TEST_F(CliSolids, TellsHowWideASphereLeavesTheGround) {
   const Outcome made =
-      run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
+      must_run("make torus.ply -o s.stl --wrap sphere:turn=100 --outline circle --diameter 110 --height 2");
   const double pi = std::numbers::pi, chord = 110 * 360 / (100 * pi) * std::sin(50 * pi / 180);
   const std::string_view before = "which leaves it ";
   const std::size_t at = made.err.find(before);

@@ -116,9 +116,7 @@ TEST(StreamFront, ReadsCloudsWithoutNormals) {
   const StreamedCloud it = streamed(write_ply(cloud));
   EXPECT_FALSE(it.cloud.has_normals());
   for (const Vec3& p : it.cloud.points)
-    if (p.head<2>().norm() < .9) {
-      EXPECT_GT(p.norm(), .95);
-    }
+    if (p.head<2>().norm() < .9) EXPECT_GT(p.norm(), .95);
 }
 
 TEST(StreamFront, LeavesOutStraysAndPointsThatAreNotFinite) {

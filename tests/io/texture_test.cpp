@@ -29,15 +29,14 @@ std::string png(int channels = 3) {
 }
 
 TEST(Texture, HasThePixelsAtTheirMiddlesAndRepeats) {
-  const auto texture = io::Texture::read(png(), "a.png");
-  ASSERT_TRUE(texture);
+  const auto texture = value_of(io::Texture::read(png(), "a.png"));
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x)
       for (const int turns : {-2, 0, 1})
-        EXPECT_EQ(texture->at((x + .5) / 4 + turns, (y + .5) / 4 - turns), colour_at(x, y));
-  EXPECT_EQ(texture->at(.25, .125), (Colour{30, 0, 5})) << "half way between two pixels";
-  EXPECT_EQ(texture->at(0, .125), (Colour{90, 0, 14})) << "between the last column and the first";
-  EXPECT_EQ(texture->at(std::nan(""), 0), Colour{});
+        EXPECT_EQ(texture.at((x + .5) / 4 + turns, (y + .5) / 4 - turns), colour_at(x, y));
+  EXPECT_EQ(texture.at(.25, .125), (Colour{30, 0, 5})) << "half way between two pixels";
+  EXPECT_EQ(texture.at(0, .125), (Colour{90, 0, 14})) << "between the last column and the first";
+  EXPECT_EQ(texture.at(std::nan(""), 0), Colour{});
 }
 
 TEST(Texture, GreyPicturesAreGreyAndOtherFilesNone) {

@@ -209,25 +209,24 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   const auto refusal = [](const Ornament& ornament) {
     return message_of(ornament_shapes(std::array{ornament}, coin()));
   };
-  EXPECT_NE(refusal(text_on(TextArc::top, std::string(80, 'M'))).find("all around its circle"),
-            std::string::npos);
+  EXPECT_TRUE(refusal(text_on(TextArc::top, std::string(80, 'M'))).contains("all around its circle"));
   Ornament wide{.kind = OrnamentKind::line};
   wide.size_mm = 40;
-  EXPECT_NE(refusal(wide).find("within"), std::string::npos);
+  EXPECT_TRUE(refusal(wide).contains("within"));
   EXPECT_NE(
       refusal(Ornament{.kind = OrnamentKind::drawing}).find("expected a drawing with an area, found none"),
       std::string::npos);
   Ornament sizeless{.kind = OrnamentKind::drawing};
   sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
-  EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
+  EXPECT_TRUE(refusal(sizeless).contains("expected a drawing with its size, found none"));
   // A drawing without almost any width is as high as its size demands.
   Ornament thin = sizeless;
   thin.outlines = {{{0, 0}, {1, 0}, {1, 1e14}}};
   thin.size_mm = 10;
-  EXPECT_NE(refusal(thin).find("expected a drawing of at most "), std::string::npos);
+  EXPECT_TRUE(refusal(thin).contains("expected a drawing of at most "));
   Ornament flat = text_on(TextArc::top, "A");
   flat.height_mm = 0;
-  EXPECT_NE(refusal(flat).find("lengths"), std::string::npos);
+  EXPECT_TRUE(refusal(flat).contains("lengths"));
 }
 
 }  // namespace

@@ -184,14 +184,13 @@ TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
     for (const double yaw_deg : {0., -55.}) {
       const RenderOptions options = options_for(Material::plaster, false, yaw_deg);
       Picture live, finished;
-      const auto placed = renderer.render_on(plate, bodies().shown(), options, live);
-      ASSERT_TRUE(placed) << name;
+      const auto placed = value_of(renderer.render_on(plate, bodies().shown(), options, live));
       const Box box = Box::of(solid->points);
-      EXPECT_LT((placed->size_mm - box.size()).norm(), is_wrapped ? 1e-2 : 1e-4) << name;
+      EXPECT_LT((placed.size_mm - box.size()).norm(), is_wrapped ? 1e-2 : 1e-4) << name;
       if (!is_wrapped && plate.outline != Outline::none) {
         const Box relief = Box::of(std::span(solid->points).first(bodies().heights.size()));
         const Vec2 middle = (relief.centre() - box.centre()).head<2>();
-        EXPECT_LT((placed->middle_mm - middle).norm(), 1e-6) << name;
+        EXPECT_LT((placed.middle_mm - middle).norm(), 1e-6) << name;
       }
       of_solid.render(options, finished);
       EXPECT_NEAR(live.pixels_per_mm, finished.pixels_per_mm, is_wrapped ? 1e-3 : 1e-5) << name;
@@ -227,9 +226,8 @@ TEST(OneRenderer, FollowsTheHeightOfARim) {
                       fine = options_for(Material::plaster, true, 40);
   Picture first, second, other;
   ASSERT_TRUE(used.render_on(coin_of(1), bodies().shown(), quick, first));
-  const auto placed = used.render_on(coin_of(8), bodies().shown(), quick, second);
-  ASSERT_TRUE(placed);
-  EXPECT_NEAR(placed->size_mm.z(), 3 + 8, 1e-6);
+  const auto placed = value_of(used.render_on(coin_of(8), bodies().shown(), quick, second));
+  EXPECT_NEAR(placed.size_mm.z(), 3 + 8, 1e-6);
   EXPECT_GT(different_values(first.image, second.image), first.image.pixels.size() / 100);
   ASSERT_TRUE(used.render_on(coin_of(8), bodies().shown(), fine, second));
   ASSERT_TRUE(fresh.render_on(coin_of(8), bodies().shown(), fine, other));

@@ -93,24 +93,23 @@ void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const
 }
 
 TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
-  const auto model = prepare(small_figure(), View{});
-  ASSERT_TRUE(model) << model.error().message();
+  const auto model = value_of(prepare(small_figure(), View{}));
   ReliefOptions options{{.height_mm = 2, .margin_mm = 3, .rim_mm = 2}};
   options.plate_mm = Vec2(120, 70);
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::ellipse}) {
     options.outline = outline;
-    expect_fitted(*model, options, *options.plate_mm);
+    expect_fitted(model, options, *options.plate_mm);
   }
   options.plate_mm.reset();
   options.diameter_mm = 80;
   options.outline = Outline::circle;
-  expect_fitted(*model, options, Vec2(80, 80));
+  expect_fitted(model, options, Vec2(80, 80));
   options.width_mm = 20;  // a smaller relief keeps the plate's size
-  const auto made = make_relief(*model, options);
+  const auto made = make_relief(model, options);
   EXPECT_NEAR(Box::of(made->solid.points).size().x(), 80, 1e-9);
-  EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
+  EXPECT_NEAR(made->report.scale * model.surface().longer_side(), 20, 1e-9);
   options.form = Form::die;  // around the rim's groove is a border, as wide as the rim and its bevel together
-  const Vec3 die = Box::of(make_relief(*model, options)->solid.points).size();
+  const Vec3 die = Box::of(make_relief(model, options)->solid.points).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);
 }
 
@@ -243,9 +242,7 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);
     ASSERT_EQ(made.has_value(), share > 1);
-    if (!made) {
-      EXPECT_EQ(made.error().input, "rim-bevel");
-    }
+    if (!made) EXPECT_EQ(made.error().input, "rim-bevel");
   }
 }
 

@@ -184,13 +184,12 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   const HeightFieldMesh pyramid = test::pyramid_front(polygon, 6);
   const double relief = test::polygon_area(polygon) * 6 / 3;
   for (const auto& [name, outline] : outline_choices) {
-    const auto solid = make_plate(pyramid, {2, 1.5, outline, 8});
-    ASSERT_TRUE(solid) << name << solid.error().message();
-    EXPECT_EQ(check_solid(*solid), "") << name;
+    const auto solid = value_of(make_plate(pyramid, {2, 1.5, outline, 8}));
+    EXPECT_EQ(check_solid(solid), "") << name;
     const std::vector<Vec2> around = outline_around(polygon, {outline, 8, 2});
     const double ground = test::polygon_area(around.empty() ? polygon : around);
-    EXPECT_NEAR(volume_mm3(*solid), ground * 1.5 + relief, 1e-6) << name;
-    for (const Vec3& p : solid->points) EXPECT_GE(p.minCoeff(), 0) << name;
+    EXPECT_NEAR(volume_mm3(solid), ground * 1.5 + relief, 1e-6) << name;
+    for (const Vec3& p : solid.points) EXPECT_GE(p.minCoeff(), 0) << name;
   }
 }
 
@@ -285,14 +284,13 @@ TEST(Outlines, AreWatertightInEveryFormAndSimplified) {
   for (const auto& [name, outline] : outline_choices)
     for (const auto& [form_name, form] : form_choices)
       for (const bool is_simpler : {false, true}) {
-        const auto made = make_relief(model(), options_for(outline, form, is_simpler));
-        ASSERT_TRUE(made) << name << form_name << is_simpler << made.error().message();
-        EXPECT_EQ(check_solid(made->solid), "") << name << form_name << is_simpler;
+        const auto made = value_of(make_relief(model(), options_for(outline, form, is_simpler)));
+        EXPECT_EQ(check_solid(made.solid), "") << name << form_name << is_simpler;
         if (is_simpler)
-          EXPECT_LE(*made->report.simplification_error_mm, .05) << name;
+          EXPECT_LE(*made.report.simplification_error_mm, .05) << name;
         else
-          EXPECT_EQ(pieces(made->solid), outline == Outline::none ? 2U : 1U) << name << form_name;
-        EXPECT_EQ(made->report.simplification_error_mm.has_value(), is_simpler) << name;
+          EXPECT_EQ(pieces(made.solid), outline == Outline::none ? 2U : 1U) << name << form_name;
+        EXPECT_EQ(made.report.simplification_error_mm.has_value(), is_simpler) << name;
       }
 }
 

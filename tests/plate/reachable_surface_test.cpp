@@ -72,9 +72,7 @@ TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
 TEST(ReachableSurface, KeepsLevelGroundLevel) {
   const Solid solid = test::plate_of(block(), with_tool());
   for (const Vec3& p : solid.points)
-    if (p.x() < 13 && p.x() > 0) {
-      EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
-    }
+    if (p.x() < 13 && p.x() > 0) EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
 }
 
 TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {

@@ -48,9 +48,7 @@ TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
     test::expect_counter_clockwise(sampled.points, sampled.triangles);
     EXPECT_NEAR(test::area_of(sampled.points, sampled.triangles), side * side, 1e-6);
     for (const Vec3& p : sampled.points)
-      if (is_far_from_hull(p)) {
-        EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
-      }
+      if (is_far_from_hull(p)) EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
   }
 }
 

@@ -30,9 +30,7 @@ TEST(DarkLines, AreFullOnStripesAndNothingElsewhere) {
     const Vec3& p = surface.points[i];
     if (p.head<2>().cwiseAbs().maxCoeff() > .9) continue;
     const double distance = std::abs(p.x() - .2);
-    if (distance < .015) {
-      EXPECT_GT(lines[i], .99F) << p.transpose();
-    }
+    if (distance < .015) EXPECT_GT(lines[i], .99F) << p.transpose();
     if (distance > .08) {
       EXPECT_EQ(lines[i], 0) << p.transpose();
     }
@@ -45,9 +43,7 @@ TEST(DarkLines, AreTheEdgesOfWideDarkAreas) {
   const std::vector<float> lines = dark_lines(surface);
   float most = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (surface.points[i].x() < -.2 || surface.points[i].x() > .05) {
-      EXPECT_EQ(lines[i], 0);
-    }
+    if (surface.points[i].x() < -.2 || surface.points[i].x() > .05) EXPECT_EQ(lines[i], 0);
     most = std::max(most, lines[i]);
   }
   EXPECT_GT(most, .9F);

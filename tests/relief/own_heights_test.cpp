@@ -100,9 +100,8 @@ TEST(OwnHeights, LettersAreLevelAndTheirEdgeIsAWall) {
   const Relief relief = relief_of(live);
   const Surface& surface = live.model().surface();
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
-    if (is_own(live, i) && surface.boundary.distance[i] > 1.5 * surface.rho) {
+    if (is_own(live, i) && surface.boundary.distance[i] > 1.5 * surface.rho)
       EXPECT_NEAR(relief.heights[i], .4 * height, 1e-6 * height);
-    }
 }
 
 TEST(OwnHeights, RefuseTheBrushThatProtects) {
@@ -118,9 +117,7 @@ TEST(OwnHeights, OtherModelsKeepTheirHeights) {
   const Relief raised = relief_of(with), usual = relief_of(without);
   ASSERT_EQ(with.model().surface().points, without.model().surface().points);
   for (std::size_t i = 0; i < usual.heights.size(); ++i)
-    if (!is_own(with, i)) {
-      EXPECT_NEAR(raised.heights[i], usual.heights[i], 1e-9 * height);
-    }
+    if (!is_own(with, i)) EXPECT_NEAR(raised.heights[i], usual.heights[i], 1e-9 * height);
 }
 
 // The surface of the head behind the letter is not visible, but around the letter it continues evenly.

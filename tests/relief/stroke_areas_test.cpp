@@ -134,9 +134,7 @@ TEST(Region, FadesFromItsEdge) {
     if (std::abs(p.y()) > .7 || p.x() < -.7) continue;
     const double along = (edge - p.x()) * std::hypot(1, .6);
     EXPECT_NEAR(area.distances[k], std::clamp(.1 - along, 0., .1), .05);
-    if (along > .16) {
-      EXPECT_EQ(area.distances[k], 0);
-    }
+    if (along > .16) EXPECT_EQ(area.distances[k], 0);
   }
 }
 

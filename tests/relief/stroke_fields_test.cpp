@@ -76,9 +76,7 @@ TEST(StrokeMask, IsFullInsideAHardStroke) {
   stroke.softness = .25;
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k)
-    if (test::place_of(surface, mask.points[k]).norm() < .29) {
-      EXPECT_FLOAT_EQ(mask.weights[k], 1);
-    }
+    if (test::place_of(surface, mask.points[k]).norm() < .29) EXPECT_FLOAT_EQ(mask.weights[k], 1);
   EXPECT_GT(mask.points.size(), 20000 * std::numbers::pi * .16 / 4 * .95);
 }
 
@@ -159,9 +157,7 @@ TEST(StrokeFields, LevelToTheMean) {
   const auto changed = applied(surface, {stroke}, z);
   for (Index i = 0; i < z.size(); ++i) {
     const double distance = (test::place_of(surface, i) - Vec3(.2, 0, 0)).norm();
-    if (distance < .37) {
-      EXPECT_NEAR(changed[i], 1.06, .002);
-    }
+    if (distance < .37) EXPECT_NEAR(changed[i], 1.06, .002);
   }
 }
 
@@ -235,9 +231,7 @@ TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
   soft.softness = .05;
   const auto once = applied(surface, {soft}, z), thrice = applied(surface, {soft, soft, soft}, z);
   for (Index i = 0; i < z.size(); ++i)
-    if (surface.points[i].head<2>().norm() < .47) {
-      EXPECT_NEAR(thrice[i], once[i], 1e-12);
-    }
+    if (surface.points[i].head<2>().norm() < .47) EXPECT_NEAR(thrice[i], once[i], 1e-12);
 }
 
 // A stroke that grows while it is drawn, beside others that stay, changes the same as when it is made at once.
@@ -302,9 +296,7 @@ TEST(StrokesOfReliefs, MoveNothingElseAndKeepTheHeight) {
     for (const Index i : stroke_mask(model.surface(), stroke).points) is_painted[i] = 1;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < plain.heights.size(); ++i) {
-    if (!is_painted[i]) {
-      EXPECT_NEAR(changed.heights[i], plain.heights[i], 1e-12);
-    }
+    if (!is_painted[i]) EXPECT_NEAR(changed.heights[i], plain.heights[i], 1e-12);
     moved += is_painted[i] && std::abs(changed.heights[i] - plain.heights[i]) > 1e-4;
   }
   EXPECT_GT(moved, 100U);

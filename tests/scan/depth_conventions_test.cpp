@@ -118,9 +118,7 @@ TEST(DepthConventions, TheFigureIsWholeWhateverIsBehindIt) {
         SCOPED_TRACE(testing::Message() << how.name << ", wall " << wall << ", missing " << missing);
         const auto made = value_of(depth_cloud(picture(how, wall, missing), as(how.kind)));
         EXPECT_GE(share_used(made), .98);
-        if (how.kind == DepthValues::depth) {
-          EXPECT_NEAR(depth_range(made.cloud), .5 * side, .03 * side);
-        }
+        if (how.kind == DepthValues::depth) EXPECT_NEAR(depth_range(made.cloud), .5 * side, .03 * side);
       }
 }
 
@@ -269,9 +267,7 @@ TEST(DepthConventions, BlurIsTakenOutAsFarAsAsked) {
     const auto kept = value_of(depth_cloud(blurred_disc(blur), options));
     EXPECT_LT(points_between(wide.cloud), 40U);
     EXPECT_GT(wide.blur, 200U);
-    if (blur < 2) {
-      EXPECT_LT(points_between(narrow.cloud), 40U);
-    }
+    if (blur < 2) EXPECT_LT(points_between(narrow.cloud), 40U);
     EXPECT_EQ(kept.blur, 0U);
     EXPECT_EQ(kept.cloud.size(), static_cast<std::size_t>(side * side));
   }

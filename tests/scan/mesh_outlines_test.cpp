@@ -154,9 +154,7 @@ TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
   double silhouette = 0, jump = 0;
   for (const OutlineSegment& s : seen_outlines(mesh.points, mesh.triangles, .01)) {
     (s.is_jump ? jump : silhouette) += (s.to - s.from).norm();
-    if (s.is_jump) {
-      EXPECT_EQ(s.from.x(), 1);
-    }
+    if (s.is_jump) EXPECT_EQ(s.from.x(), 1);
   }
   EXPECT_NEAR(silhouette, 3 * 2 + 1 + 2 * 1 + 1, .03);
   EXPECT_NEAR(jump, 1, .02);

@@ -67,9 +67,7 @@ TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const bool is_inside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() < .499;
     const bool is_outside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() > .501;
-    if (is_inside || is_outside) {
-      EXPECT_NEAR(cloud.points[i].z(), is_inside ? 1 : 0, 1e-6);
-    }
+    if (is_inside || is_outside) EXPECT_NEAR(cloud.points[i].z(), is_inside ? 1 : 0, 1e-6);
     near += is_inside;
     EXPECT_GT(cloud.normals[i].z(), .99F);
   }

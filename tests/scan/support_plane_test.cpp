@@ -197,9 +197,7 @@ TEST(SupportPlane, StaysLeftOutWhileTheModelIsTurned) {
   const Surface rest = turned_surface(scan.without_plane(surface), turned, 5000).value().surface;
   const Vec3 centre = turned.R_view_model * (normal - scan.centre);
   for (const Vec3& p : rest.points)
-    if ((p - centre).head<2>().norm() < .9) {
-      EXPECT_NEAR((p - centre).norm(), 1, .03);
-    }
+    if ((p - centre).head<2>().norm() < .9) EXPECT_NEAR((p - centre).norm(), 1, .03);
   EXPECT_NEAR(Box::of(rest.points).size().x(), 2, .1);
 }
 

@@ -73,6 +73,13 @@ class CliFolder : public testing::Test {
     return outcome;
   }
 
+  // Runs the program and expects that it succeeds.
+  Outcome must_run(const std::string& arguments) const {
+    Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  }
+
   // Expects that the program fails, prints one line that contains `part` to stderr, and leaves no new file.
   void expect_refusal(const std::string& arguments, const std::string& part,
                       const std::string& before = "") const {
@@ -81,7 +88,7 @@ class CliFolder : public testing::Test {
     const Outcome outcome = run(arguments, before);
     EXPECT_GT(outcome.exit_code, 0) << arguments;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.contains(part)) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(files(), before_run) << arguments;
   }
