@@ -1,10 +1,7 @@
 // Tests ZIP archives like those of web sites for models.
 #include "common/archive.h"
 
-#include <gtest/gtest.h>
-
 #include "common/read_inputs.h"
-#include "support/format_samples.h"
 #include "support/read_text.h"
 #include "support/zip_encoder.h"
 

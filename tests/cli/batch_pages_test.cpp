@@ -3,7 +3,6 @@
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
 #include "relievo/core/text.h"
-#include "relievo/io/write.h"
 #include "support/cli_folder.h"
 
 namespace relievo {

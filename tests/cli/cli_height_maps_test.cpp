@@ -1,12 +1,8 @@
 // Tests the height maps that the program writes: the size and meaning of their pixels, as stated in the files
 // and in the report.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "relievo/io/read.h"
 #include "support/cli_folder.h"
 #include "support/results.h"
 

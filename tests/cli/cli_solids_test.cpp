@@ -1,16 +1,9 @@
 // Tests the solids and height maps that the program writes. Solids are read without the library, and their
 // volumes are compared with closed forms.
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <sstream>
 
 #include "common/archive.h"
-#include "relievo/io/read.h"
-#include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/read_solid.h"
 

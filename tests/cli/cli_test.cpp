@@ -1,12 +1,8 @@
 // Tests the program as its users run it: its outputs, and its messages and reports.
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <set>
-#include <sstream>
 
 #include "relievo/core/image.h"
-#include "relievo/io/write.h"
 #include "relievo/option_table.h"
 #include "relievo/picture/preview.h"
 #include "relievo/relief/baseline_grid.h"

@@ -3,7 +3,6 @@
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 

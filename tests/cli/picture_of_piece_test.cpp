@@ -1,9 +1,5 @@
 // Tests that the studio shows the content of its files: compares its picture of a piece with a picture of the
 // exported STL, for which only the triangles are used.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
@@ -13,7 +9,6 @@
 #include "relievo/samples/sample.h"
 #include "studio/drawing.h"
 #include "support/picture_similarity.h"
-#include "support/read_solid.h"
 #include "support/second_renderer.h"
 
 namespace relievo {

@@ -1,8 +1,6 @@
 // Tests that the preview of a relief shows the relief for all forms and wraps.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "common/export_file.h"
 #include "relievo/make_relief.h"
 #include "support/shapes.h"

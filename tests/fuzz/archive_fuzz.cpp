@@ -3,7 +3,6 @@
 // project file.
 #include <algorithm>
 #include <cstdlib>
-#include <string>
 
 #include "common/archive.h"
 #include "common/project_file.h"

@@ -4,12 +4,9 @@
 // file, and the files beside it follow: materials or a buffer up to another zero byte, then a picture.
 #include <array>
 #include <cstdlib>
-#include <string>
 
 #include "fuzz/fuzz_program.h"
-#include "relievo/io/read.h"
 #include "relievo/io/stream.h"
-#include "relievo/scan/depth_image.h"
 #include "support/e57_encoder.h"
 #include "support/read_text.h"
 

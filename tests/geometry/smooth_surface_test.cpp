@@ -1,9 +1,5 @@
 #include "geometry/smooth_surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
 #include "support/triangles.h"

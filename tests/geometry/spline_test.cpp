@@ -1,9 +1,5 @@
 #include "relievo/geometry/spline.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/shapes.h"

@@ -1,10 +1,7 @@
 // Tests the readers of PCD and LAS: the clouds that they return, and their messages about broken fields.
-#include <gtest/gtest.h>
-
 #include <bit>
 #include <charconv>
 
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

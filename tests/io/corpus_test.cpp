@@ -1,14 +1,10 @@
 // Reads files from the test suites of other projects. Their licences do not allow them to be part of this
 // project. Every result must pass check_answer(), and agree with the verdicts in the files' names and with
 // the reports of validators.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/numbers.h"
 #include "relievo/core/json_place.h"
-#include "relievo/core/text.h"
 #include "support/read_text.h"
 #include "support/shared_scans.h"
 

@@ -1,8 +1,5 @@
 // Tests reading depth images from PNG and TIFF files, whole and broken.
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 
 #include "relievo/core/image.h"

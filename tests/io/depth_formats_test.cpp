@@ -1,12 +1,9 @@
 // Tests uncompressed pictures: NumPy arrays, portable pixmaps (PNM) and BMP.
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <bit>
 
-#include "relievo/core/text.h"
 #include "relievo/io/write.h"
-#include "support/format_samples.h"
 #include "support/read_text.h"
 #include "support/tiff_encoder.h"
 

@@ -1,9 +1,6 @@
 // Tests JPEG pictures, also as textures.
-#include <gtest/gtest.h>
-
 #include "io/pictures/jpeg_header.h"
 #include "io/texture.h"
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/jpeg_encoder.h"
 #include "support/read_text.h"

@@ -1,11 +1,6 @@
 // Tests TIFF pictures with every type of number, as cameras, terrain models and microscopes write them.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <functional>
 
-#include "relievo/core/text.h"
-#include "support/format_samples.h"
 #include "support/read_text.h"
 #include "support/tiff_encoder.h"
 

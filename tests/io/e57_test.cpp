@@ -1,6 +1,4 @@
 // Tests E57 files that the test program writes itself; corpus_test.cpp reads files of other programs.
-#include <gtest/gtest.h>
-
 #include "io/e57/pages.h"
 #include "support/e57_encoder.h"
 #include "support/read_text.h"

@@ -1,12 +1,8 @@
 // Tests glTF with buffers in other files, and with features that are legal but rare.
 #include "io/gltf/gltf.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
 
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

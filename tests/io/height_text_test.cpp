@@ -1,12 +1,7 @@
 // Tests heights in text files: the grids of GIS programs, and tables of numbers, which must not be read as
 // clouds.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <span>
 
-#include "relievo/core/text.h"
 #include "support/read_text.h"
 
 namespace relievo {

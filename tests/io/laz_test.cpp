@@ -1,9 +1,4 @@
 // Tests LAZ files that the test program writes itself; corpus_test.cpp reads files of other programs.
-#include <gtest/gtest.h>
-
-#include <map>
-#include <random>
-
 #include "io/las/arithmetic_decoder.h"
 #include "io/las/point_items.h"
 #include "support/laz_encoder.h"

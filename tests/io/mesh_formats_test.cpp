@@ -1,6 +1,5 @@
 // Tests the readers of STL, OFF, glTF and the faces of PLY and OBJ: the meshes that they return, and their
 // messages about broken fields.
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "support/format_samples.h"

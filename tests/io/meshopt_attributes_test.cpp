@@ -2,7 +2,6 @@
 // decoder.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>

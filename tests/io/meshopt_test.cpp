@@ -3,15 +3,10 @@
 // decoder.
 #include "io/gltf/meshopt.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <cstring>
 #include <deque>
 #include <limits>
 #include <random>
 
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/meshopt_encoder.h"
 #include "support/read_text.h"

@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "support/read_text.h"

@@ -1,6 +1,3 @@
-#include <gtest/gtest.h>
-
-#include "relievo/core/text.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"
 

@@ -1,6 +1,4 @@
 // Tests PTX files. Each of their scans has a matrix.
-#include <gtest/gtest.h>
-
 #include "support/read_text.h"
 
 namespace relievo {

@@ -1,12 +1,6 @@
 #include "relievo/io/stream.h"
 #include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "relievo/core/parallel.h"
-#include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"

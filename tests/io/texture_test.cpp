@@ -1,9 +1,6 @@
 // Tests pictures as textures, and the OBJ and glTF meshes that use them.
 #include "io/texture.h"
 
-#include <gtest/gtest.h>
-
-#include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"

@@ -1,6 +1,4 @@
 // Tests the document of 3MF files; tests/cli/archive_test.cpp reads it from an archive.
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 
 #include "support/format_samples.h"

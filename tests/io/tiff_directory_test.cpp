@@ -1,7 +1,5 @@
 // Tests the tags of a TIFF that decide which of its pictures counts, its orientation, and the size of its
 // pixels.
-#include <gtest/gtest.h>
-
 #include <array>
 
 #include "support/read_text.h"

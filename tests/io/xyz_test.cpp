@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <functional>
 
-#include "relievo/core/text.h"
-#include "relievo/scan/scan_file.h"
 #include "support/read_text.h"
 
 namespace relievo {

@@ -1,9 +1,6 @@
 #include "lettering/font.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>

@@ -1,7 +1,5 @@
 #include "lettering/ornament_shapes.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>

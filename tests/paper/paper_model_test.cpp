@@ -1,11 +1,6 @@
 #include "paper/paper_model.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "paper/surface.h"
 #include "relievo/relief/frame.h"

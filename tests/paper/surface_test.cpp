@@ -1,9 +1,5 @@
 #include "paper/surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include "support/results.h"

@@ -1,16 +1,11 @@
 // Tests that previews of finished solids and live pictures of frames come from the same renderer: the same
 // solid with the same view, light and material gives the same pixels.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <span>
 #include <tuple>
 
 #include "picture/body.h"
 #include "picture/draw_body.h"
 #include "picture/plate_mesh.h"
-#include "relievo/core/text.h"
 #include "relievo/picture/preview.h"
 #include "relievo/plate/forms.h"
 #include "support/surfaces.h"

@@ -1,10 +1,6 @@
 #include "relievo/picture/preview.h"
 #include "relievo/picture/height_map.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
 #include <set>
 
 #include "relievo/make_relief.h"

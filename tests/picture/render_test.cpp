@@ -1,10 +1,5 @@
 #include "relievo/picture/render.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "support/same_bits.h"
 #include "support/surfaces.h"
 

@@ -1,12 +1,7 @@
 // Checks that every available real scan becomes a valid solid of the requested height.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"

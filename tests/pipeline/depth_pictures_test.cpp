@@ -1,6 +1,4 @@
 // Tests the reliefs of depth pictures in many conventions against those of the clouds from which they were drawn.
-#include <gtest/gtest.h>
-
 #include <map>
 
 #include "relievo/io/read.h"

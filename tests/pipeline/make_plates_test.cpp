@@ -1,9 +1,4 @@
 // Tests reliefs on plates with rims, from the cloud to the solid.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
 #include "support/results.h"

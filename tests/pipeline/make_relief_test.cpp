@@ -1,12 +1,6 @@
 #include "relievo/make_relief.h"
 #include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"

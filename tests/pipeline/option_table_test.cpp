@@ -1,7 +1,5 @@
 #include "relievo/option_table.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <set>
 

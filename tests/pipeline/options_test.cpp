@@ -1,10 +1,7 @@
 #include "relievo/options.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
-#include "relievo/core/text.h"
 #include "relievo/option_table.h"
 #include "relievo/relief/weights.h"
 #include "support/results.h"

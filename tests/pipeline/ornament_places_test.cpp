@@ -1,10 +1,5 @@
 #include "relievo/ornament_places.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"

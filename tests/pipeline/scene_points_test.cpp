@@ -1,22 +1,14 @@
 // Tests which points of a scene are visible, and the relief that is made from them.
 #include "relievo/io/write.h"
 #include "relievo/make_relief.h"
-#include "relievo/scan/scan_file.h"
-#include "relievo/scene.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <numbers>
 
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
 #include "support/plate_fronts.h"
 #include "support/same_bits.h"
 #include "support/scene_parts.h"
-#include "support/shapes.h"
 #include "support/triangles.h"
 
 namespace relievo {

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <semaphore>
 #include <thread>
 
 #include "support/preparations.h"

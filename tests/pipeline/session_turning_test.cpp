@@ -1,14 +1,8 @@
 // Tests sessions whose model is being turned.
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <semaphore>
 #include <thread>
 
-#include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
-#include "relievo/session.h"
 #include "support/preparations.h"
 #include "support/results.h"
 

@@ -2,11 +2,7 @@
 // smaller button in front of it.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "relievo/plate/draft_in_file.h"

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "geometry/plane.h"
 #include "relievo/make_relief.h"

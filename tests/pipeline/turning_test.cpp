@@ -1,9 +1,5 @@
 #include "relievo/turning.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"

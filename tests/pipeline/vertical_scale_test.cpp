@@ -1,9 +1,5 @@
 #include "pipeline/vertical_scale.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "relievo/make_relief.h"
 #include "relievo/scan/depth_image.h"
 #include "support/results.h"

@@ -1,7 +1,5 @@
 #include "plate/front/sample_squares.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
 

@@ -3,8 +3,6 @@
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
-
 #include <vector>
 
 #include "relievo/make_relief.h"

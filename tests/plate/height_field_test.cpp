@@ -1,11 +1,7 @@
 #include "plate/height_field.h"
 
-#include <gtest/gtest.h>
-
 #include "relievo/make_relief.h"
-#include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 #include "support/triangles.h"
 

@@ -1,14 +1,8 @@
 #include "plate/ornaments.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "geometry/plane.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
-#include "support/results.h"
 #include "support/self_intersections.h"
 
 namespace relievo {

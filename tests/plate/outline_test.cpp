@@ -1,19 +1,9 @@
 #include "relievo/plate/outline.h"
-#include "relievo/scan/surface.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "geometry/plane.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/forms.h"
 #include "relievo/plate/simplify.h"
-#include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 #include "support/triangles.h"
 

@@ -1,14 +1,6 @@
 // Tests plates on curved bases.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <set>
-#include <string>
 
-#include "relievo/geometry/triangulation.h"
-#include "relievo/plate/solid.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"

@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 
 #include "geometry/convex_polygon.h"
-#include "relievo/plate/solid.h"
 #include "support/plate_fronts.h"
 
 namespace relievo {

@@ -1,9 +1,5 @@
 #include "plate/plate_surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/plate_fronts.h"
 #include "support/self_intersections.h"
 

@@ -1,11 +1,5 @@
 #include "plate/front/sample_front.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
 #include "support/plate_fronts.h"
 #include "support/triangles.h"

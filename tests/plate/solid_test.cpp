@@ -1,15 +1,9 @@
 #include "relievo/plate/solid.h"
-#include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <charconv>
 #include <cstring>
-#include <span>
-#include <string_view>
 
 #include "support/admesh.h"
 #include "support/plate_fronts.h"

@@ -1,7 +1,5 @@
 #include "plate/front/thin_triangles.h"
 
-#include <gtest/gtest.h>
-
 #include "support/plate_fronts.h"
 #include "support/self_intersections.h"
 

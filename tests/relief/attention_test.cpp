@@ -1,19 +1,11 @@
 #include "relievo/relief/attention.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
-#include "relievo/core/parallel.h"
 #include "relievo/relief/frame.h"
-#include "relievo/relief/relief.h"
 #include "relievo/relief/weights.h"
 #include "support/same_bits.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {

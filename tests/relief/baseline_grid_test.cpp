@@ -1,9 +1,5 @@
 #include "relievo/relief/baseline_grid.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "relief/baselines/scaled.h"
 #include "relievo/quality/measures.h"
 #include "support/surfaces.h"

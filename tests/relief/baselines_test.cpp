@@ -1,10 +1,4 @@
 #include "relievo/relief/baselines.h"
-#include "relievo/relief/relief.h"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 #include "support/differences.h"
 #include "support/least_squares.h"

@@ -1,13 +1,7 @@
 #include "relief/colour_lines.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/height_span.h"
 #include "relievo/relief/frame.h"
-#include "relievo/scan/surface.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -2,13 +2,9 @@
 #include "relievo/io/write.h"
 #include "relievo/plate/draft_in_file.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "relievo/plate/simplify.h"

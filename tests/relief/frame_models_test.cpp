@@ -1,8 +1,4 @@
 // Tests frames of the generated samples, and of real scans if these are available.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "relievo/io/read.h"
 #include "relievo/relief/frame.h"
 #include "relievo/samples/sample.h"

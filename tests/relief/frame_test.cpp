@@ -1,10 +1,5 @@
 #include "relievo/relief/frame.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"

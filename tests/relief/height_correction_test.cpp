@@ -1,10 +1,5 @@
 #include "relief/correction/height_correction.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "relievo/relief/weights.h"
 #include "support/differences.h"
 #include "support/surfaces.h"

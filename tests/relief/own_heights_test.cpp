@@ -1,10 +1,5 @@
 #include "relief/own_heights.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include "relievo/job.h"
@@ -12,7 +7,6 @@
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 #include "support/mesh_shapes.h"
-#include "support/results.h"
 #include "support/scene_parts.h"
 
 namespace relievo {

@@ -1,10 +1,5 @@
 #include "relievo/relief/relief.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"

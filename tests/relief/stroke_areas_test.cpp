@@ -1,11 +1,5 @@
 #include "relief/stroke_areas.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {

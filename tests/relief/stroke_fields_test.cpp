@@ -1,15 +1,8 @@
 #include "relief/stroke_fields.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "core/height_span.h"
 #include "relievo/relief/frame.h"
 #include "relievo/relief/weights.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {

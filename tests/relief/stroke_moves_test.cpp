@@ -1,14 +1,9 @@
 #include "relief/stroke_moves.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/QR>
-#include <algorithm>
-#include <cmath>
 
 #include "relief/stroke_fields.h"
 #include "relievo/relief/frame.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {

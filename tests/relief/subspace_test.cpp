@@ -1,14 +1,7 @@
 #include "relievo/relief/subspace.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numbers>
-
 #include "relief/subspace/control_mesh.h"
 #include "relievo/io/read.h"
-#include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
 #include "support/differences.h"
 #include "support/same_bits.h"

@@ -1,9 +1,5 @@
 #include "relievo/scan/curvature.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
 #include <numeric>
 
 #include "support/results.h"

@@ -1,7 +1,5 @@
 // Tests depth images in the conventions of different programs, which differ in how they store depths, in the
 // value where nothing was measured, and in the background behind the figure.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>

@@ -1,11 +1,6 @@
 #include "relievo/scan/depth_image.h"
 #include "relievo/io/read.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
 #include "support/results.h"

@@ -1,9 +1,5 @@
 #include "scan/jumps.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,13 +1,6 @@
 // Compares the outlines of meshes with the closed forms of their shapes.
 #include "scan/outlines/mesh_outlines.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "relievo/scan/mesh.h"
 #include "relievo/scan/surface.h"
 #include "support/mesh_shapes.h"
 #include "support/shapes.h"

@@ -1,10 +1,7 @@
 #include "relievo/scan/mesh.h"
 #include "relievo/scan/scan_file.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "support/mesh_shapes.h"

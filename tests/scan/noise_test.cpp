@@ -1,10 +1,5 @@
 #include "scan/noise/noise.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/angle.h"
 #include "core/lists.h"
 #include "relievo/scan/normals.h"

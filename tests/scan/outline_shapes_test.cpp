@@ -1,10 +1,6 @@
 // Compares outlines of clouds with closed forms, for shapes with sharp corners, with a hole, and with noise.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "relievo/scan/surface.h"
 #include "support/shapes.h"
 

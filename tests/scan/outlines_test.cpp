@@ -1,10 +1,5 @@
 #include "scan/outlines/outlines.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "scan/outlines/outline_points.h"
 #include "support/surfaces.h"
 

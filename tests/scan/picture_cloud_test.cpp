@@ -1,7 +1,5 @@
 #include "relievo/scan/depth_image.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "support/results.h"

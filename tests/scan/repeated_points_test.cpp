@@ -1,11 +1,7 @@
 #include "scan/merging/repeated_points.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <limits>
 
-#include "relievo/scan/surface.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,8 +1,5 @@
 #include "relievo/scan/resample.h"
 
-#include <gtest/gtest.h>
-
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "core/angle.h"
 #include "relievo/scan/surface.h"

@@ -1,7 +1,5 @@
 #include "relievo/scan/surface.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "support/surfaces.h"

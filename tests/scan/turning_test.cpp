@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <random>
 
-#include "core/simd.h"
 #include "scan/measured_cloud.h"
 #include "scan/turning/turned_surface.h"
 #include "support/same_bits.h"
