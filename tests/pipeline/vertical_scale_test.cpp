@@ -75,9 +75,7 @@ TEST(VerticalScale, LeavesTheSeaLevel) {
   EXPECT_NEAR(made.report.height_mm, mm_per_value * (102 - 45), .02);
   EXPECT_EQ(made.report.below_ground_mm, 0);
   options.ground_value = 200;
-  const auto flooded = make_relief(tile(0), options);
-  ASSERT_FALSE(flooded);
-  EXPECT_EQ(flooded.error().kind, ErrorKind::geometry);
+  expect_error(make_relief(tile(0), options), ErrorKind::geometry);
 }
 
 // Depths increase away from the viewer, so the largest depth is on the ground.
@@ -96,10 +94,7 @@ TEST(VerticalScale, OfAScanIsThatOfItsLengths) {
 }
 
 TEST(VerticalScale, NeedsValuesThatAreProportionalToHeights) {
-  const Cloud inverse = tile(0, DepthValues::inverse);
-  const auto made = make_relief(inverse, tile_options());
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().input, "mm-per-value");
+  expect_error(make_relief(tile(0, DepthValues::inverse), tile_options()), "mm-per-value: ");
   ReliefOptions huge = tile_options();
   huge.mm_per_value = 1e5;
   EXPECT_EQ(make_relief(tile(0), huge).error().input, "mm-per-value");

@@ -170,9 +170,8 @@ TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {
 TEST(AttentionOfReliefs, IsThatOfFramesAndLeavesNothingBehind) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
   const auto frame_of = [](FrameMaker& maker, const Shape& shape) {
-    FrameOptions options{.shape = shape};
     Frame frame;
-    maker.make(options, frame);
+    maker.make({shape}, frame);
     return frame;
   };
   FrameMaker maker(model);

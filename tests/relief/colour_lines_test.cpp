@@ -1,8 +1,7 @@
 #include "relief/colour_lines.h"
 
 #include "core/height_span.h"
-#include "relievo/relief/frame.h"
-#include "support/surfaces.h"
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {
@@ -78,12 +77,7 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
   EXPECT_EQ(height_span(sunk.heights), .2);
   const std::vector<float> lines = dark_lines(model.surface());
   EXPECT_GT(std::ranges::count_if(lines, [](float line) { return line > .9F; }), 50);
-  FrameMaker frames(model);
-  Frame frame, level;
-  FrameOptions options{.shape = layered_shape()};
-  frames.make(options, level);
-  options.shape = lined;
-  frames.make(options, frame);
+  const Frame level = test::frame_of(model, {}), frame = test::frame_of(model, {lined});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double depth = .01 * static_cast<double>(lines[i]);
     EXPECT_NEAR(sunk.heights[i], std::max(plain.heights[i] - depth, 0.0), 1e-6);

@@ -163,9 +163,8 @@ TEST(OwnHeights, AFigureIsScaledAndKeepsItsForm) {
 
 TEST(OwnHeights, FramesHaveThemToo) {
   LiveModel live = prepared(letter_before_head(.3));
-  FrameMaker maker(live.model());
   Frame frame;
-  maker.make({layered_shape(), height}, frame);
+  FrameMaker(live.model()).make({layered_shape(), height}, frame);
   const Relief relief = relief_of(live);
   double most = 0;
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
@@ -197,17 +196,12 @@ TEST(OwnHeights, BaselinesHaveThemToo) {
 TEST(OwnHeights, RefusesHeightsOutOfRangeAndThePaper) {
   for (const double share : {0., .95, -1.}) {
     const auto made = prepare(Job{legend_beside_head(share)});
-    ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().kind, ErrorKind::option);
-    EXPECT_TRUE(made.error().expected.contains("expected a height from 0.01 to 0.9 of the relief's, found "));
+    expect_error(made, ErrorKind::option, "expected a height from 0.01 to 0.9 of the relief's, found ");
   }
   Job job{legend_beside_head(.2)};
   job.options.method = Method::paper;
-  const auto made = prepare(job);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().input, "method");
-  EXPECT_EQ(made.error().expected,
-            "expected another than paper for a scene in which a model has its own height");
+  expect_error(prepare(job),
+               "method: expected another than paper for a scene in which a model has its own height");
 }
 
 }  // namespace
