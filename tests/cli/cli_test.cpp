@@ -173,7 +173,6 @@ TEST_F(Cli, ReadsMeshesAndDepthImages) {
 }
 
 TEST_F(Cli, StreamsLargeFiles) {
-  must_run("make torus.ply -o whole.stl --quiet --height 3");
   const Outcome outcome =
       must_run("make torus.ply -o t.stl --stream-above 0.1 --points 5000 --height 3 --report r.json");
   EXPECT_TRUE(outcome.err.contains("points for the 20000 of the file")) << outcome.err;

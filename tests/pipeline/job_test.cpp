@@ -80,9 +80,8 @@ TEST(LiveModel, KnowsTheWidthThatAPlateLeaves) {
 
 TEST(LiveModel, FramesOnAPlateAreAsHighAsTheSolidWhereNoHeightIsGiven) {
   LiveModel live = *prepare(job());
-  ReliefOptions options;
+  ReliefOptions options{{.diameter_mm = 40}};
   options.outline = Outline::circle;
-  options.diameter_mm = 40;
   const LiveFrame made = *live.frame(options);
   EXPECT_NEAR(made.frame->height * made.stretch * made.mm_per_unit, live.relief(options)->report.height_mm,
               1e-4);

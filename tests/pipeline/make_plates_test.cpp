@@ -15,9 +15,8 @@ MadeRelief made(const ReliefOptions& options) {
 }
 
 ReliefOptions coin_options() {
-  ReliefOptions options{{.width_mm = 20, .height_mm = .8, .margin_mm = 1}};
+  ReliefOptions options{{.width_mm = 20, .height_mm = .8, .margin_mm = 1, .rim_mm = 2}};
   options.outline = Outline::circle;
-  options.rim_mm = 2;
   return options;
 }
 

@@ -254,10 +254,9 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
 // The relief's bounding box moves by the whole shift, and stays inside the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
-  ReliefOptions options{{.height_mm = 2}};
+  ReliefOptions options{{.width_mm = 40, .height_mm = 2}};
   options.outline = Outline::round;
   options.plate_mm = Vec2(120, 90);
-  options.width_mm = 40;
   const auto place = [&](const ReliefOptions& o) {
     return make_relief(*model, o)->report.offset.head<2>().eval();
   };
@@ -316,9 +315,8 @@ TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
 }
 
 TEST(MakeRelief, FromAPreparedModelIsTheSame) {
-  ReliefOptions options;
+  ReliefOptions options{{.height_mm = 2}};
   options.view = *parse_view("1,0.5,2");
-  options.height_mm = 2;
   options.tone = *parse_tone_curve("0,0.1;0.5,0.6;1,0.3");
   options.steepest_deg = 60;
   options.boundary_width = 5;
@@ -342,10 +340,8 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
 // and targets, scripts/compare-builds allows differences of 1e-5 of the height.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
   for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
-    ReliefOptions options;
+    ReliefOptions options{{.height_mm = 2, .resolution_mm = 1}};
     options.method = method;
-    options.height_mm = 2;
-    options.resolution_mm = 1;
     test::expect_same_without_avx2(
         [&] { return value_of(make_relief(test::torus(6000, 1.5, .4), options)).solid.points; });
   }

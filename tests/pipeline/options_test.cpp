@@ -24,6 +24,10 @@ TEST(Options, OfThePapersMethodAreThePapers) {
   EXPECT_EQ(options.effective_alpha(), 4);
   EXPECT_EQ(options.effective_saturation(), .01);
   EXPECT_EQ(options.effective_detail(), .02);
+  options = {{.height_mm = 3}};
+  options.method = Method::paper;
+  EXPECT_EQ(options.effective_saturation(), .01);
+  EXPECT_EQ(options.effective_detail(), .02);
 }
 
 TEST(Options, WithAHeightCompressEvenly) {
@@ -47,12 +51,6 @@ TEST(Options, OutOfRangeAreNamed) {
   options = {};
   options.thickness_mm = std::numeric_limits<double>::infinity();
   expect_error(check(options), "thickness");
-}
-
-TEST(Options, TheBestViewFindsWhatIsUp) {
-  const Result<ReliefOptions> options = parse_options({{"view", "auto"}});
-  ASSERT_TRUE(options);
-  EXPECT_TRUE(options->view.is_best);
 }
 
 TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
@@ -115,13 +113,6 @@ TEST(Options, HaveControlPointsInASubspaceOnly) {
             "control-points: expected mode subspace or auto with it, found exact");
   options.mode = Mode::automatic;
   EXPECT_EQ(message_of(check(options)), "no error");
-}
-
-TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
-  ReliefOptions options{{.height_mm = 3}};
-  options.method = Method::paper;
-  EXPECT_EQ(options.effective_saturation(), .01);
-  EXPECT_EQ(options.effective_detail(), .02);
 }
 
 TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {

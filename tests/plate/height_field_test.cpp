@@ -56,9 +56,8 @@ TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
   const ReliefModel model = test::prepared(test::torus(2500, 1.5, .4));
   for (const auto& [name, form] : form_choices)
     for (const double draft : {0., 20.}) {
-      ReliefOptions options{{.width_mm = 20, .height_mm = .9, .resolution_mm = .3}};
+      ReliefOptions options{{.width_mm = 20, .height_mm = .9, .rim_mm = 1.5, .resolution_mm = .3}};
       options.outline = Outline::circle;
-      options.rim_mm = 1.5;
       options.form = form;
       if (draft > 0) options.draft_deg = draft;
       if (draft > 0 && form == Form::lithophane) continue;

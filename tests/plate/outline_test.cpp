@@ -215,7 +215,6 @@ double flat_area(const Solid& solid) {
 TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
   const auto solid =
       test::plate_of(patches({"##...", "##...", ".....", "..###", "..#.#"}), {5, 2, Outline::none});
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(pieces(solid), 2U);
   EXPECT_NEAR(flat_area(solid), 9 * 100, 1e-9);
   const auto ring = make_plate(patches({"....", ".###", ".#.#", ".###"}), {5, 2, Outline::none});
@@ -228,7 +227,6 @@ TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
   // The two blocks touch in one point. The diagonals of cells run through it, so two triangles of each block
   // meet there. Those of one block are removed.
   const auto solid = test::plate_of(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(pieces(solid), 2U);
   EXPECT_NEAR(flat_area(solid), 8 * 100 - 100, 1e-9);
 }
@@ -261,11 +259,9 @@ const ReliefModel& model() {
 }
 
 ReliefOptions options_for(Outline outline, Form form, bool is_simpler) {
-  ReliefOptions options;
+  ReliefOptions options{{.height_mm = 3, .corner_mm = 15}};
   options.outline = outline;
   options.form = form;
-  options.height_mm = 3;
-  options.corner_mm = 15;
   if (is_simpler) options.tolerance_mm = .05;
   return options;
 }
@@ -305,7 +301,6 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const auto simpler = value_of(simplify(front, .05));
   const Solid full = test::plate_of(front, {5, 2, Outline::none}),
               body = test::plate_of(simpler.front, {5, 2, Outline::none});
-  EXPECT_EQ(check_solid(body), "");
   EXPECT_EQ(pieces(body), 1U);
   EXPECT_LT(body.triangles.size(), full.triangles.size());
   EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // the whole area is 254

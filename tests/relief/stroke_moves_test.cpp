@@ -85,8 +85,8 @@ TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
   const Surface surface = test::step(.25);
   std::vector<double> z;
   for (const Vec3& p : surface.points) z.push_back(.4 + .02 * std::sin(9 * p.y()) + (p.x() < 0 ? .03 : 0.));
-  Stroke stroke{.brush = Brush::in_front, .amount = .2, .radius = .3};
-  stroke.points = {{-.05, -.3, .25}, {-.05, .3, .25}};
+  Stroke stroke{
+      .brush = Brush::in_front, .amount = .2, .radius = .3, .points = {{-.05, -.3, .25}, {-.05, .3, .25}}};
   const std::vector<double> changed = applied(surface, {stroke}, z);
   const std::vector<float> weights = test::weights_of(surface, stroke);
   double least = 1;

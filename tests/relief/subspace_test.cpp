@@ -105,9 +105,8 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
 // (see SubspaceModel).
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
-  SubspaceOptions options;
+  SubspaceOptions options{.normals_per_point = 1};
   options.control.count = surface.points.size();
-  options.normals_per_point = 1;
   const SubspaceModel model = SubspaceModel::prepare(surface, options).value();
   EXPECT_LT(worst_error(surface, model), .003);
 }
