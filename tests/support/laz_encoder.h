@@ -2,11 +2,8 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
 #include <map>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "support/format_samples.h"
 
