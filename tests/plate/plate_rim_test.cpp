@@ -7,7 +7,7 @@ namespace {
 
 using test::depth_in, test::plate_of;
 
-HeightFieldMesh hill() {
+HeightFieldMesh peak() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
 }
 
@@ -40,17 +40,17 @@ TEST(Rim, IsWatertightAndAsHighAsItsDistanceFromTheOutlineAsks) {
   for (const auto& [name, outline] : outline_choices)
     for (const RimOptions& rim : {RimOptions{3, 1, .5}, {3, 4, 3}, {.5, .2, .1}, {6, 1, 1}}) {
       if (outline == Outline::none) continue;
-      const Solid solid = plate_of(hill(), {1, 2, outline, 5, rim});
+      const Solid solid = plate_of(peak(), {1, 2, outline, 5, rim});
       const std::vector<Vec2> edge = outline_of(solid);
-      for (std::size_t i = hill().points.size(); i < solid.points.size(); ++i) {
+      for (std::size_t i = peak().points.size(); i < solid.points.size(); ++i) {
         const Vec3& p = solid.points[i];
         if (p.z() == 0) continue;
         const double depth = depth_in(edge, p.head<2>());
         const double height = rim.height_mm * std::clamp((rim.width_mm - depth) / rim.bevel_mm, 0., 1.);
         EXPECT_NEAR(p.z() - 2, height, 1e-3 * rim.height_mm / rim.bevel_mm);
       }
-      for (const Vec3& p : hill().points) {
-        const Vec2 place = p.head<2>() + (solid.points[0] - hill().points[0]).head<2>();
+      for (const Vec3& p : peak().points) {
+        const Vec2 place = p.head<2>() + (solid.points[0] - peak().points[0]).head<2>();
         EXPECT_GE(depth_in(edge, place), 1 + rim.width_mm - 1e-3);
       }
     }
@@ -60,8 +60,8 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
   for (const auto& [name, outline] : outline_choices) {
     if (outline == Outline::none) continue;
     const RimOptions rim{2, .8, .3};
-    const Solid coin = plate_of(hill(), {1, 2, outline, 5, rim});
-    HeightFieldMesh hollow = hill();
+    const Solid coin = plate_of(peak(), {1, 2, outline, 5, rim});
+    HeightFieldMesh hollow = peak();
     for (Vec3& p : hollow.points) p.z() = -p.z();
     const Solid die = plate_of(hollow, {1, 2, outline, 5, {2, -.8, .3}});
     EXPECT_EQ(Box::of(die.points).max.z(), 5);
@@ -70,7 +70,7 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
     const std::vector<Vec2> inside = outline_of(coin), outside = outline_of(die);
     for (const Vec2& p : inside) EXPECT_NEAR(depth_in(outside, p + shift.head<2>()), 2.3, 1e-3);
     std::size_t deep = 0;
-    for (std::size_t i = hill().points.size(); i < die.points.size(); ++i) {
+    for (std::size_t i = peak().points.size(); i < die.points.size(); ++i) {
       const Vec3 p = die.points[i] - shift;
       if (die.points[i].z() == 0) continue;
       const double depth = depth_in(inside, p.head<2>());
@@ -83,7 +83,7 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
 }
 
 TEST(Rim, RefusesWhatCannotBe) {
-  const auto complaint = [](const PlateOptions& options) { return message_of(make_plate(hill(), options)); };
+  const auto complaint = [](const PlateOptions& options) { return message_of(make_plate(peak(), options)); };
   EXPECT_EQ(complaint({1, 2, Outline::none, 5, {2, 1, .5}}),
             "rim: expected an outline to lie along, found none");
   EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {-2, 1, .5}}).starts_with("rim:"));
