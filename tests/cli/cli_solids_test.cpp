@@ -6,6 +6,7 @@
 #include "common/archive.h"
 #include "support/cli_folder.h"
 #include "support/read_solid.h"
+#include "support/read_text.h"
 
 namespace relievo {
 namespace {
@@ -41,12 +42,10 @@ TEST_F(CliSolids, Writes3mfAndTiff) {
   const ReadSolid solid = solid_in_3mf(read_all(folder_ / "t.3mf"));
   EXPECT_TRUE(solid.is_closed());
   EXPECT_TRUE(solid.triangles == solid_in_stl(read_all(folder_ / "t.stl")).triangles);
-  const std::string tiff = read_all(folder_ / "h.tif");
-  const auto map = read_depth_image(std::as_bytes(std::span(tiff)), "h.tif");
-  ASSERT_TRUE(map) << map.error().message();
-  const auto [lowest, highest] = std::ranges::minmax(map->values.pixels);
+  const Image<float> map = image_in(read_all(folder_ / "h.tif")).values;
+  const auto [lowest, highest] = std::ranges::minmax(map.pixels);
   EXPECT_NEAR(highest - lowest, 3, .02);
-  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the corner is in the margin
+  EXPECT_NEAR(map.pixels.front(), lowest, 1e-4);  // the corner is in the margin
   const nlohmann::json report = nlohmann::json::parse(read_all(folder_ / "r.json"), nullptr, false);
   EXPECT_LE(report.value("simplification_error_mm", 1.0), .05);
   EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
@@ -89,13 +88,11 @@ TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   EXPECT_TRUE(solid.is_closed());
   EXPECT_NEAR(solid.box().size().z(), 3.2, 2e-3);
   EXPECT_NEAR(solid.box().size().x(), 60 + 2 * 5, 1e-3);
-  const std::string tiff = read_all(folder_ / "l.tif");
-  const auto map = read_depth_image(std::as_bytes(std::span(tiff)), "l.tif");
-  ASSERT_TRUE(map);
+  const Image<float> map = image_in(read_all(folder_ / "l.tif")).values;
   // The map has 2 pixels per millimetre, and the photo has 1.
-  const float bright = map->values.at(2 * (5 + 59), 50);
+  const float bright = map.at(2 * (5 + 59), 50);
   for (int c = 1; c < 59; ++c) {
-    const double darker = static_cast<double>(map->values.at(2 * (5 + c), 50) - bright);
+    const double darker = static_cast<double>(map.at(2 * (5 + c), 50) - bright);
     EXPECT_NEAR(darker, 2.4 * (59 - c) / 59., .05) << c;
   }
 }

@@ -88,9 +88,7 @@ TEST_F(Cli, MakesProjects) {
   write_all(folder_ / "l.relievo", R"({"relievo": 1, "input": {"path": "torus.ply"},
     "options": {"height": 3, "width": 50, "method": "layered"}})");
   must_run("make l.relievo -o l.stl --alpha 2");  // only the paper's method has an alpha
-  EXPECT_EQ(
-      run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size())).exit_code,
-      0);
+  must_run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size()));
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
 }
 
@@ -106,9 +104,7 @@ class CliScenes : public Cli {
 
 TEST_F(CliScenes, OfSeveralInputsAreARowAsASceneFileDescribesIt) {
   write_all(folder_ / "wedge.stl", ascii_stl());
-  EXPECT_EQ(
-      run("make torus.ply wedge.stl torus.ply -o row.stl --report r.json --points 20000 --quiet").exit_code,
-      0);
+  must_run("make torus.ply wedge.stl torus.ply -o row.stl --report r.json --points 20000 --quiet");
   const std::string report = read_all(folder_ / "r.json");
   for (const char* key : {"\"models\"", "\"model_to_scene\"", "\"wedge.stl\"", "\"torus.ply\""})
     EXPECT_TRUE(report.contains(key)) << key;
