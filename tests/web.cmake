@@ -23,7 +23,7 @@ foreach(room core geometry solver scan relief lettering plate picture io pipelin
   target_link_libraries(relievo_${room}_web_tests PRIVATE relievo_gtest relievo_samples nanoflann::nanoflann
     nlohmann_json::nlohmann_json)
   relievo_compiler_options(relievo_${room}_web_tests)
-  target_compile_options(relievo_${room}_web_tests PRIVATE -O1 -UEIGEN_NO_IO)  # tests print points
+  target_compile_options(relievo_${room}_web_tests PRIVATE -O1 -UEIGEN_NO_IO -Wno-missing-field-initializers -Wno-dangling-else)  # tests print points
   target_link_options(relievo_${room}_web_tests PRIVATE -Wl,-z,stack-size=1048576 -Wl,--max-memory=4294967296)
   add_test(NAME web.${room} COMMAND ${NODE} ${PROJECT_SOURCE_DIR}/npm/test/run.mjs $<TARGET_FILE:relievo_${room}_web_tests>)
   set_tests_properties(web.${room} PROPERTIES TIMEOUT 600)

@@ -1,10 +1,7 @@
 // Tests ZIP archives such as web sites for models offer for download.
 #include "common/archive.h"
 
-#include <gtest/gtest.h>
-
 #include "common/read_inputs.h"
-#include "support/format_samples.h"
 #include "support/read_text.h"
 #include "support/zip_encoder.h"
 
@@ -28,14 +25,13 @@ std::string triangle() {
 }
 
 TEST(Archive, AGltfAndItsBufferAreRead) {
-  const auto file = read(archive_of({{"license.txt", "1 2 3"},
-                                     {"model/scene.bin", triangle()},
-                                     {"model/scene.gltf", gltf},
-                                     {"__MACOSX/model/scene.gltf", "x"},
-                                     {"model/textures/a.png", "x"}}));
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles.size(), 1U);
-  EXPECT_EQ(file->mesh.points[2], Vec3(0, 2, 0));
+  const auto file = value_of(read(archive_of({{"license.txt", "1 2 3"},
+                                              {"model/scene.bin", triangle()},
+                                              {"model/scene.gltf", gltf},
+                                              {"__MACOSX/model/scene.gltf", "x"},
+                                              {"model/textures/a.png", "x"}})));
+  EXPECT_EQ(file.mesh.triangles.size(), 1U);
+  EXPECT_EQ(file.mesh.points[2], Vec3(0, 2, 0));
 }
 
 TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
@@ -57,9 +53,9 @@ TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
 
 TEST(Archive, ATextAloneIsACloud) {
   for (const char* const name : {"scan.txt", "scan.csv", "folder/scan.txt"}) {
-    const auto file = read(archive_of({{name, "0 0 1\n1 0 2\n0 1 3\n"}, {"__MACOSX/scan.txt", "x"}}));
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->cloud.size(), 3U);
+    const auto file =
+        value_of(read(archive_of({{name, "0 0 1\n1 0 2\n0 1 3\n"}, {"__MACOSX/scan.txt", "x"}})));
+    EXPECT_EQ(file.cloud.size(), 3U);
   }
 }
 
@@ -74,19 +70,16 @@ TEST(Archive, AnNpzGivesItsPointsOrElseItsDepths) {
   std::string pixels;
   for (int i = 0; i < 36; ++i) pixels += raw(static_cast<float>(1 + i % 6 + i / 6));
   const std::string depths = npy("<f4", pixels, "6, 6"), mask = npy("|b1", std::string(36, '\1'), "6, 6");
-  const auto both = read_npz({{"mask.npy", mask}, {"depth.npy", depths}, {"points.npy", points}});
-  ASSERT_TRUE(both) << both.error().message();
-  EXPECT_EQ(both->file->cloud.points, tetrahedron_points);
+  const auto both = value_of(read_npz({{"mask.npy", mask}, {"depth.npy", depths}, {"points.npy", points}}));
+  EXPECT_EQ(both.file->cloud.points, tetrahedron_points);
   const auto depth = read_npz({{"mask.npy", mask}, {"depth.npy", depths}});
   ASSERT_TRUE(depth) << depth.error().message();
   EXPECT_EQ(depth->file->cloud.size(), 36U);
-  const auto only = read_npz({{"arr_0.npy", points}});
-  ASSERT_TRUE(only) << only.error().message();
-  EXPECT_EQ(only->file->cloud.points, tetrahedron_points);
+  const auto only = value_of(read_npz({{"arr_0.npy", points}}));
+  EXPECT_EQ(only.file->cloud.points, tetrahedron_points);
   const std::string zip = archive_of({{"points.npy", points}});
-  const auto unnamed = parse_input(std::as_bytes(std::span(zip)), "scan.zip", {}, 1e5, nullptr);
-  ASSERT_TRUE(unnamed) << unnamed.error().message();
-  EXPECT_EQ(unnamed->file->cloud.points, tetrahedron_points);
+  const auto unnamed = value_of(parse_input(std::as_bytes(std::span(zip)), "scan.zip", {}, 1e5, nullptr));
+  EXPECT_EQ(unnamed.file->cloud.points, tetrahedron_points);
   expect_error(
       read_npz({{"a.npy", points}, {"b.npy", points}}),
       "a.npz: expected an array named points, pts3d, depth or alike, found 2 others, such as a.npy; np.save "
@@ -96,9 +89,8 @@ TEST(Archive, AnNpzGivesItsPointsOrElseItsDepths) {
 }
 
 TEST(Archive, BackslashesSeparateFoldersToo) {
-  const auto file = read(archive_of({{"m\\scene.bin", triangle()}, {"m\\scene.gltf", gltf}}));
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles.size(), 1U);
+  const auto file = value_of(read(archive_of({{"m\\scene.bin", triangle()}, {"m\\scene.gltf", gltf}})));
+  EXPECT_EQ(file.mesh.triangles.size(), 1U);
 }
 
 // Slicers write 3MF files whose main model has a component in another file of the archive.
@@ -111,12 +103,11 @@ TEST(Archive, AThreeMfIsReadWithItsParts) {
       R"(<vertex x="0" y="2" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
   const std::string group =
       R"(<object id="2"><components><component p:path="/3D/Objects/a.model" objectid="1"/></components></object>)";
-  const auto file = read(archive_of({{"3D/Objects/a.model", model(mesh, "")},
-                                     {"3D/3dmodel.model", model(group, R"(<item objectid="2"/>)")},
-                                     {"Metadata/plate_1.png", "x"}}));
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->format, "3MF");
-  EXPECT_EQ(file->mesh.points[2], Vec3(0, 2, 0));
+  const auto file = value_of(read(archive_of({{"3D/Objects/a.model", model(mesh, "")},
+                                              {"3D/3dmodel.model", model(group, R"(<item objectid="2"/>)")},
+                                              {"Metadata/plate_1.png", "x"}})));
+  EXPECT_EQ(file.format, "3MF");
+  EXPECT_EQ(file.mesh.points[2], Vec3(0, 2, 0));
 }
 
 TEST(Archive, FormatsThatAreArchivesAreNamed) {

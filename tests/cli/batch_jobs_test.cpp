@@ -103,9 +103,9 @@ TEST_F(BatchJobs, AreTheRowsOfATable) {
 }
 
 TEST_F(BatchJobs, NameWhatIsWrongInATable) {
-  EXPECT_NE(error_of("file,hight\na.ply,3\n").find("found 'hight'"), std::string::npos);
-  EXPECT_NE(error_of("file,name\na.ply,x\nb.ply,x\n").find("line 3"), std::string::npos);
-  EXPECT_NE(error_of("file\n").find("expected scans, found none"), std::string::npos);
+  EXPECT_TRUE(error_of("file,hight\na.ply,3\n").contains("found 'hight'"));
+  EXPECT_TRUE(error_of("file,name\na.ply,x\nb.ply,x\n").contains("line 3"));
+  EXPECT_TRUE(error_of("file\n").contains("expected scans, found none"));
 }
 
 TEST_F(BatchJobs, ReadTheFilesThatScenesAndProjectsName) {

@@ -87,7 +87,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(records.at("a").outputs.size(), 2U);
   EXPECT_EQ(records.at("c").error, "c.ply: expected something else");
   EXPECT_FALSE(records.at("c").may_succeed);
-  EXPECT_NE(records.at("d").error.find("ended by signal 9"), std::string::npos) << records.at("d").error;
+  EXPECT_TRUE(records.at("d").error.contains("ended by signal 9")) << records.at("d").error;
   EXPECT_TRUE(records.at("d").may_succeed);
   EXPECT_EQ(journal_lines(), 4U);
 }
@@ -135,9 +135,9 @@ TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
   run_jobs({1, 50});  // the job needs 100 MB, which is over the limit, so it runs alone
   const std::string arguments = read_all(folder_ / "out/a.stl");
   const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
-  EXPECT_NE(arguments.find("--threads="), std::string::npos);
+  EXPECT_TRUE(arguments.contains("--threads="));
   EXPECT_EQ(arguments.find("--threads=1 ") == std::string::npos, processors > 1) << arguments;
-  EXPECT_NE(arguments.find("--width=10 "), std::string::npos);
+  EXPECT_TRUE(arguments.contains("--width=10 "));
 }
 
 TEST_F(BatchRun, LocksItsFolder) {
@@ -174,8 +174,7 @@ class BatchProgram : public CliFolder {
 
   // Returns the lines that --list prints: one per job.
   std::vector<std::string> listed(const std::string& options = "") const {
-    const Outcome list = run(cat("batch scans -o out --list ", options, quick));
-    EXPECT_EQ(list.exit_code, 0) << list.err;
+    const Outcome list = must_run(cat("batch scans -o out --list ", options, quick));
     return lines_of(list.out);
   }
 
@@ -192,30 +191,29 @@ TEST_F(BatchProgram, MakesWhatMakeMakes) {
   write_all(folder_ / "scans/notes.txt2", "no scan");
   const Outcome outcome = run(std::string("batch scans -o out") + quick);
   EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.err.find("not taken for scans: notes.txt2"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.err.contains("not taken for scans: notes.txt2")) << outcome.err;
   EXPECT_NE(outcome.err.find("expected 4 reliefs, made 3; 1 failed"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("failed: bad: "), std::string::npos) << outcome.err;
+  EXPECT_TRUE(outcome.err.contains("failed: bad: ")) << outcome.err;
   for (const char* name : {"1", "2", "3"}) {
-    ASSERT_EQ(run(cat("make scans/", name, ".ply -o ", name, ".stl --quiet", quick)).exit_code, 0);
+    must_run(cat("make scans/", name, ".ply -o ", name, ".stl --quiet", quick));
     EXPECT_EQ(read_all(folder_ / cat(name, ".stl")), read_all(folder_ / "out" / cat(name, ".stl"))) << name;
   }
   const Outcome again = run(std::string("batch scans -o out") + quick);
   EXPECT_EQ(again.exit_code, 1);
-  EXPECT_NE(again.err.find("4 of 4, 4 done before, 1 failed"), std::string::npos) << again.err;
+  EXPECT_TRUE(again.err.contains("4 of 4, 4 done before, 1 failed")) << again.err;
 }
 
 TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   fs::remove(folder_ / "scans/bad.ply");
-  EXPECT_EQ(run(cat("batch scans -o out --shard 1/2", quick)).exit_code, 0);
+  must_run(cat("batch scans -o out --shard 1/2", quick));
   EXPECT_TRUE(fs::exists(folder_ / "out/3.stl"));
   EXPECT_FALSE(fs::exists(folder_ / "out/2.stl"));
   for (const std::string& line : listed()) {
-    const Outcome job = run(command_for({line}));
-    EXPECT_EQ(job.exit_code, 0) << job.err;
+    const Outcome job = must_run(command_for({line}));
     const auto record = nlohmann::json::parse(job.out);
     EXPECT_EQ(record["is_kept"], record["name"] != "2") << job.out;
   }
-  EXPECT_EQ(run(cat("batch scans -o out --pages", quick)).exit_code, 0);
+  must_run(cat("batch scans -o out --pages", quick));
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
@@ -239,7 +237,7 @@ TEST_F(BatchProgram, EndsAfterTheJobWhoseRecordNobodyTakes) {
   const std::string script = cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ",
                                  command_for(listed("--match ?.ply")), " > /dev/full 2> error");
   EXPECT_NE(std::system(script.c_str()), 0);
-  EXPECT_NE(read_all(folder_ / "error").find("expected a reader of records"), std::string::npos);
+  EXPECT_TRUE(read_all(folder_ / "error").contains("expected a reader of records"));
   EXPECT_TRUE(fs::exists(folder_ / "out/1.stl"));
   EXPECT_FALSE(fs::exists(folder_ / "out/2.stl"));
 }
@@ -260,7 +258,7 @@ TEST_F(BatchProgram, TakesOptionsOfEachRow) {
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NEAR(nlohmann::json::parse(read_all(folder_ / "out/inch.json"))["height_mm"].get<double>(), 25.4,
               .1);
-  EXPECT_NE(read_all(folder_ / "out/scans.jsonl").find("no number"), std::string::npos);
+  EXPECT_TRUE(read_all(folder_ / "out/scans.jsonl").contains("no number"));
 }
 
 }  // namespace

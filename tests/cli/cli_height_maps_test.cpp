@@ -1,12 +1,8 @@
 // Tests the height maps that the program writes: the size and the meaning of their pixels, as the files and
 // the report state them.
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "relievo/io/read.h"
 #include "support/cli_folder.h"
 #include "support/results.h"
 
@@ -19,9 +15,8 @@ class CliHeightMaps : public CliFolder {
  protected:
   // Makes a height map of the torus on a plate of 120 x 80 mm with a rim. Returns its values.
   Image<float> map(const std::string& options, const std::string& file = "h.png") {
-    const Outcome outcome =
-        run("make torus.ply --plate 120x80 --height 3 --rim 4 --rim-height 1 -o " + file + " " + options);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const Outcome outcome = must_run("make torus.ply --plate 120x80 --height 3 --rim 4 --rim-height 1 -o " +
+                                     file + " " + options);
     err_ = outcome.err;
     bytes_ = read_all(folder_ / file);
     return value_of(read_depth_image(std::as_bytes(std::span(bytes_)), file)).values;
@@ -49,7 +44,7 @@ TEST_F(CliHeightMaps, HavePixelsOfExactSizeWithoutASolid) {
     EXPECT_EQ(image.width, 1200) << pixel;
     EXPECT_EQ(image.height, 800) << pixel;
     EXPECT_EQ(pixels_per_metre(), std::pair(10000U, 10000U)) << pixel;
-    EXPECT_NE(bytes_.find(std::string("mm_per_pixel\0000.1", 16)), std::string::npos) << pixel;
+    EXPECT_TRUE(bytes_.contains(std::string("mm_per_pixel\0000.1", 16))) << pixel;
   }
   const std::set<std::string> kinds{".png", ".ply"};
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
@@ -98,7 +93,7 @@ TEST_F(CliHeightMaps, OfEightBitsSayHowHighAGreyIs) {
   EXPECT_EQ(bytes_[24], 8) << "bits in the header of the PNG";
   EXPECT_NEAR(facts().at("mm_per_grey"), 3. / 255, 1e-6);
   EXPECT_EQ(facts().at("greys"), 256);
-  EXPECT_NE(err_.find("8 bits, 256 greys used, 0.0117647 mm each"), std::string::npos) << err_;
+  EXPECT_TRUE(err_.contains("8 bits, 256 greys used, 0.0117647 mm each")) << err_;
   for (std::size_t i = 0; i < fine.size(); ++i) ASSERT_NEAR(coarse[i], fine[i] / 257, .51);
   for (const char* bits : {"8", "16"}) {
     const Image<float> tiff = map(std::string("--pixel 0.5 --heightmap-bits ") + bits, "h.tif");
@@ -110,8 +105,7 @@ TEST_F(CliHeightMaps, OfEightBitsSayHowHighAGreyIs) {
 TEST_F(CliHeightMaps, AreMadeByABatch) {
   std::filesystem::create_directory(folder_ / "scans");
   std::filesystem::copy_file(folder_ / "torus.ply", folder_ / "scans" / "a.ply");
-  const Outcome outcome = run("batch scans -o out --files heightmap,report --width 40 --margin 5 --dpi 127");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  must_run("batch scans -o out --files heightmap,report --width 40 --margin 5 --dpi 127");
   bytes_ = read_all(folder_ / "out" / "a-heights.png");
   EXPECT_EQ(value_of(read_depth_image(std::as_bytes(std::span(bytes_)), "a.png")).values.width, 250);
   EXPECT_EQ(pixels_per_metre(), std::pair(5000U, 5000U));

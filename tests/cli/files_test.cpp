@@ -6,7 +6,6 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <sys/xattr.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <list>
@@ -37,7 +36,7 @@ TEST_F(Files, ReadsFilesOnly) {
     const auto bytes = app::read_file(path);
     ASSERT_FALSE(bytes);
     EXPECT_EQ(bytes.error().kind, ErrorKind::input);
-    EXPECT_NE(bytes.error().message().find(part), std::string::npos) << bytes.error().message();
+    EXPECT_TRUE(bytes.error().message().contains(part)) << bytes.error().message();
   };
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   expect_refusal_of("/dev/zero", "found a device");

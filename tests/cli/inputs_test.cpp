@@ -2,7 +2,6 @@
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 
@@ -23,11 +22,10 @@ class CliInputs : public CliFolder {
 
 TEST_F(CliInputs, ReadsTheBuffersBesideAGltf) {
   EXPECT_EQ(line_of(run("info scans/a.gltf").out, "triangles"), "4");
-  const Outcome made = run("make scans/a.gltf -o a.stl --view -1,-1,-1 --height 2 --points 2000");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
+  must_run("make scans/a.gltf -o a.stl --view -1,-1,-1 --height 2 --points 2000");
   write_all(folder_ / "s.json", R"({"models": [{"file": "scans/a.gltf"}, {"file": "torus.ply"}]})");
   EXPECT_EQ(line_of(run("info s.json").out, "models"), "2");
-  EXPECT_EQ(run("make s.json -o s.stl --view -1,-1,-1 --height 2 --points 2000").exit_code, 0);
+  must_run("make s.json -o s.stl --view -1,-1,-1 --height 2 --points 2000");
   fs::remove(folder_ / "scans/four corners.bin");
   expect_refusal("make scans/a.gltf -o b.stl",
                  "a.gltf, buffer 0: expected the file 'four corners.bin' beside it");
@@ -57,15 +55,13 @@ TEST_F(CliInputs, SaysHowToKeepWhatIsLeftOut) {
   write_all(folder_ / "button.ply", write_ply(joined(button(40000, 1, .15), crumb)));
   const std::string crumbs =
       "left out 1 small piece of the surface; --crumbs keep leaves in all but single specks";
-  EXPECT_NE(run("make button.ply -o t.stl --resolution 1").err.find(crumbs), std::string::npos);
-  EXPECT_EQ(run("make button.ply -o t.stl --resolution 1 --crumbs keep").err.find("small piece"),
-            std::string::npos);
+  EXPECT_TRUE(run("make button.ply -o t.stl --resolution 1").err.contains(crumbs));
+  EXPECT_FALSE(run("make button.ply -o t.stl --resolution 1 --crumbs keep").err.contains("small piece"));
   write_all(folder_ / "noisy.ply", write_ply(noisy(torus(20000, 1, .4), .01, .2)));
   const Outcome smooth = run("make noisy.ply -o t.stl --resolution 1 --height 2");
-  EXPECT_NE(smooth.err.find("removed noise of "), std::string::npos) << smooth.err;
+  EXPECT_TRUE(smooth.err.contains("removed noise of ")) << smooth.err;
   EXPECT_NE(smooth.err.find(" sampling distances; --denoise 0 keeps it"), std::string::npos) << smooth.err;
-  EXPECT_EQ(run("make noisy.ply -o t.stl --resolution 1 --height 2 --denoise 0").err.find("noise"),
-            std::string::npos);
+  EXPECT_FALSE(run("make noisy.ply -o t.stl --resolution 1 --height 2 --denoise 0").err.contains("noise"));
 }
 
 // Returns the file of a cloud, with a face added.
@@ -76,10 +72,9 @@ std::string with_face(std::string cloud) {
 
 TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   write_all(folder_ / "faces.ply", with_face(read_all(folder_ / "torus.ply")));
-  const Outcome made = run("make faces.ply -o t.stl --stream-above 0.1");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("faces.ply: left out the 1 faces of the mesh"), std::string::npos) << made.err;
-  EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
+  const Outcome made = must_run("make faces.ply -o t.stl --stream-above 0.1");
+  EXPECT_TRUE(made.err.contains("faces.ply: left out the 1 faces of the mesh")) << made.err;
+  EXPECT_FALSE(run("make torus.ply -o t.stl --stream-above 0.1").err.contains("faces"));
 }
 
 // In WebAssembly, a cloud with more points than fit into memory is read in blocks. A mesh is not read in
@@ -93,11 +88,10 @@ TEST_F(CliInputs, ReadsCloudsOfTooManyPointsPieceByPiece) {
     return scene ? app::joined(app::remarks_of(*scene)) : scene.error().message();
   };
   const double points = static_cast<double>(read_cloud(app::bytes_of(read_all(torus)), torus)->cloud.size());
-  EXPECT_NE(remarks(torus, points - 1).find(cat("points for the ", points, " of the file")),
-            std::string::npos);
+  EXPECT_TRUE(remarks(torus, points - 1).contains(cat("points for the ", points, " of the file")));
   EXPECT_EQ(remarks(torus, points), "");
   write_all(folder_ / "mesh.ply", with_face(read_all(torus)));
-  EXPECT_EQ(remarks((folder_ / "mesh.ply").string(), 10).find("points for the"), std::string::npos);
+  EXPECT_FALSE(remarks((folder_ / "mesh.ply").string(), 10).contains("points for the"));
 }
 
 TEST_F(CliInputs, HintsAtAnotherViewWhereOneFaceIsSeen) {
@@ -123,7 +117,7 @@ TEST_F(CliInputs, KeepsControlCharactersOffTheTerminal) {
   refuse("s.json", R"({"mod\nels\u001b[31m": []})");
   refuse("s.json", R"({"models": [{"file": "a\n\u0007\u007f\u009b.ply"}]})");
   refuse("p.relievo", R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"\n\r\u001b": 1}})");
-  EXPECT_NE(refuse("s.json", R"({"models": [{"file": "grün.ply"}]})").find("grün.ply"), std::string::npos);
+  EXPECT_TRUE(refuse("s.json", R"({"models": [{"file": "grün.ply"}]})").contains("grün.ply"));
 }
 
 }  // namespace

@@ -1,9 +1,5 @@
 // Tests that the studio's picture of a finished piece, such as a coin, shows the solid of its file. The
 // reference is drawn from the triangles of the exported STL alone.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
@@ -13,7 +9,6 @@
 #include "relievo/samples/sample.h"
 #include "studio/drawing.h"
 #include "support/picture_similarity.h"
-#include "support/read_solid.h"
 #include "support/second_renderer.h"
 
 namespace relievo {
@@ -53,9 +48,7 @@ std::shared_ptr<const Image<float>> hill_and_hollow() {
 
 // Removes the camera's angles from a piece, because they are not options. Returns the camera.
 Camera take_camera(nlohmann::json& piece) {
-  Camera camera;
-  camera.yaw_deg = piece.value("yaw", 0.);
-  camera.pitch_deg = piece.value("pitch", 0.);
+  Camera camera{.yaw_deg = piece.value("yaw", 0.), .pitch_deg = piece.value("pitch", 0.)};
   piece.erase("yaw");
   piece.erase("pitch");
   return camera;

@@ -1,8 +1,6 @@
 // Tests that the preview of a relief shows the relief for all forms and wraps.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "common/export_file.h"
 #include "relievo/make_relief.h"
 #include "support/shapes.h"
@@ -16,10 +14,8 @@ constexpr int side_px = 160;
 
 MadeRelief made_of(const char* wrap, Form form = Form::relief, double radius = 1) {
   Cloud cloud = test::joined(test::sheet(20'000, 3, -1), test::sphere(10'000, radius));
-  ReliefOptions options;
+  ReliefOptions options{{.width_mm = 100, .height_mm = 3}};
   options.form = form;
-  options.height_mm = 3;
-  options.width_mm = 100;
   options.wrap = parse_wrap(wrap).value();
   return make_relief(std::move(cloud), options).value();
 }

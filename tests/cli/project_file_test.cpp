@@ -16,8 +16,8 @@ TEST_F(PackOrnaments, TakesAListAloneAndInAnObject) {
   for (std::string ornaments : {list, R"({"ornaments":)" + list + "}"}) {
     const app::OrnamentFiles files = value_of(app::pack_ornaments(nullptr, &ornaments));
     ASSERT_EQ(files.size(), 1) << ornaments;
-    EXPECT_NE(ornaments.find(files.begin()->first), std::string::npos) << ornaments;
-    EXPECT_EQ(ornaments.find(file), std::string::npos) << ornaments;
+    EXPECT_TRUE(ornaments.contains(files.begin()->first)) << ornaments;
+    EXPECT_FALSE(ornaments.contains(file)) << ornaments;
   }
 }
 

@@ -1,7 +1,5 @@
 #include "relievo/core/length.h"
 
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>

@@ -77,9 +77,7 @@ TEST(Number, DoesWhatTheStandardLibraryDoes) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     ASSERT_EQ(parsed.error, error) << text;
     ASSERT_EQ(parsed.end, end) << text;
-    if (error == std::errc()) {
-      ASSERT_EQ(parsed.value, value) << text;
-    }
+    if (error == std::errc()) ASSERT_EQ(parsed.value, value) << text;
   }
 }
 #endif

@@ -1,7 +1,5 @@
 #include "relievo/core/progress.h"
 
-#include <gtest/gtest.h>
-
 #include "support/results.h"
 
 namespace relievo {

@@ -1,7 +1,5 @@
 #include "relievo/core/within_memory.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <vector>
 

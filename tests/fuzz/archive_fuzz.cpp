@@ -3,7 +3,6 @@
 // itself an archive or a project file.
 #include <algorithm>
 #include <cstdlib>
-#include <string>
 
 #include "common/archive.h"
 #include "common/project_file.h"
@@ -22,10 +21,10 @@ void require_answer(const Result<T>& answer) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  std::string content(reinterpret_cast<const char*>(data + 1), size - 1);
-  if (data[0] % 2 == 1) {
+void run_target(std::string_view input) {
+  if (input.empty()) return;
+  std::string content(input.substr(1));
+  if (input[0] % 2 != 0) {
     const std::size_t end = std::min(content.find('\0'), content.size());
     content = archive_of({{"m/scene.bin", content.substr(std::min(end + 1, content.size()))},
                           {"m/scene.gltf", content.substr(0, end)}});
@@ -34,7 +33,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require_answer(app::unpack_project(bytes, "a.relievo"));
   if (app::is_archive(bytes)) require_answer(app::read_cloud_at(bytes, "a.zip"));
   require_answer(app::unpack_array(bytes, "a.npz"));
-  return 0;
 }
-
-RELIEVO_RUN_FILES

@@ -5,10 +5,11 @@
 #include "fuzz/fuzz_program.h"
 #include "lettering/font.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+void run_target(std::string_view input) {
   using namespace relievo;
-  const auto* const begin = reinterpret_cast<const std::byte*>(data);
-  const auto font = std::make_shared<const FontFile>("a.ttf", std::vector<std::byte>(begin, begin + size));
+  const auto bytes = std::as_bytes(std::span(input));
+  const auto font =
+      std::make_shared<const FontFile>("a.ttf", std::vector<std::byte>(bytes.begin(), bytes.end()));
   for (const char* const text : {"AV fi", "سلام 12", "क्षि"}) {
     const auto line = shape_line({.text = text, .font = font}, .01);
     if (!line && line.error().expected.empty()) std::abort();
@@ -18,7 +19,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const Vec2& p : outline)
           if (!p.allFinite()) std::abort();
   }
-  return 0;
 }
-
-RELIEVO_RUN_FILES

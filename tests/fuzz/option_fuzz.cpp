@@ -9,12 +9,11 @@
 
 using namespace relievo;
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view whole(reinterpret_cast<const char*>(data), size);
+void run_target(std::string_view input) {
   OptionValues values;
-  for (std::size_t begin = 0; begin < whole.size();) {
-    const std::size_t end = std::min(whole.find('\n', begin), whole.size());
-    const std::string_view line = whole.substr(begin, end - begin);
+  for (std::size_t begin = 0; begin < input.size();) {
+    const std::size_t end = std::min(input.find('\n', begin), input.size());
+    const std::string_view line = input.substr(begin, end - begin);
     const std::size_t equals = line.find('=');
     if (equals != std::string_view::npos && find_option(line.substr(0, equals)))
       values.emplace(line.substr(0, equals), std::string(line.substr(equals + 1)));
@@ -22,9 +21,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const auto options = parse_options(values);
   if (!options && (options.error().input.empty() || options.error().expected.empty())) std::abort();
-  const auto project = app::read_project(whole, "a.relievo");
+  const auto project = app::read_project(input, "a.relievo");
   if (!project && project.error().expected.empty()) std::abort();
-  return 0;
 }
-
-RELIEVO_RUN_FILES

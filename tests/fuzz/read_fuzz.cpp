@@ -4,12 +4,9 @@
 // beside it follow: first materials or a buffer, up to another zero byte, then a picture.
 #include <array>
 #include <cstdlib>
-#include <string>
 
 #include "fuzz/fuzz_program.h"
-#include "relievo/io/read.h"
 #include "relievo/io/stream.h"
-#include "relievo/scan/depth_image.h"
 #include "support/e57_encoder.h"
 #include "support/read_text.h"
 
@@ -73,10 +70,11 @@ class Bytes : public ByteSource {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size == 0) return 0;
-  const std::string name = names[data[0] % names.size()];
-  std::string content(reinterpret_cast<const char*>(data + 1), size - 1);
+void run_target(std::string_view input) {
+  if (input.empty()) return;
+  const auto first = static_cast<unsigned char>(input[0]);
+  const std::string name = names[first % names.size()];
+  std::string content(input.substr(1));
   if (name == "a.e57") content = with_checksums(std::move(content));
   const auto bytes = std::as_bytes(std::span(content));
   if (!check_answer(read_cloud(bytes, name), name).empty()) std::abort();
@@ -85,13 +83,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto text = std::as_bytes(std::span(next_part(rest)));
     if (!check_answer(read_cloud(text, name, files_beside(rest)), name).empty()) std::abort();
   }
-  const PictureChannels channels{(data[0] & 64) != 0, data[0] >> 7};
+  const PictureChannels channels{(first & 64) != 0, first >> 7};
   const auto image = read_depth_image(bytes, name, channels);
   const bool has_all = !image || image->values.size() == image->values.index(0, image->values.height);
   if (!has_all) std::abort();
   Bytes source(bytes);
   (void)stream_front(source, name, *parse_view("front"), 1000);
-  return 0;
 }
-
-RELIEVO_RUN_FILES

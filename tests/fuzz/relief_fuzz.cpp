@@ -16,9 +16,9 @@ namespace {
 using namespace relievo;
 
 // Makes a point from every three bytes. The points lie on the lines of a grid, so that most of them are visible.
-Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
+Cloud cloud_of(std::span<const std::uint8_t> data) {
   Cloud cloud;
-  for (std::size_t i = 0; i + 2 < size && cloud.size() < 400; i += 3) {
+  for (std::size_t i = 0; i + 2 < data.size() && cloud.size() < 400; i += 3) {
     const std::size_t n = cloud.size();
     cloud.points.emplace_back(static_cast<double>(n % 20) + data[i] / 256.,
                               static_cast<double>(n / 20) + data[i + 1] / 256., data[i + 2] / 32.);
@@ -26,7 +26,7 @@ Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
   return cloud;
 }
 
-ReliefOptions options_of(const std::uint8_t* data) {
+ReliefOptions options_of(std::span<const std::uint8_t> data) {
   constexpr Method methods[] = {Method::layered, Method::paper, Method::linear, Method::gradient};
   ReliefOptions options;
   options.method = methods[data[0] % 4];
@@ -43,21 +43,19 @@ ReliefOptions options_of(const std::uint8_t* data) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size < 4) return 0;
-  const Cloud cloud = cloud_of(data + 3, size - 3);
+void run_target(std::string_view input) {
+  if (input.size() < 4) return;
+  const std::span data(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  const Cloud cloud = cloud_of(data.subspan(3));
   const ReliefOptions options = options_of(data);
   const auto model = prepare(cloud, *parse_view("front"));
-  if (!model) return 0;
+  if (!model) return;
   const auto made = make_relief(*model, options);
   if (!made) {
     if (made.error().expected.empty()) fail("an error without a message", made.error().input);
-    return 0;
+    return;
   }
   if (const std::string why = check_solid(made->solid); !why.empty()) fail("a solid that is not closed", why);
   if (std::abs(made->report.height_mm - *options.height_mm) > 1e-4)
     fail("another height", std::to_string(made->report.height_mm));
-  return 0;
 }
-
-RELIEVO_RUN_FILES

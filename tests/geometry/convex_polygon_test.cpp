@@ -1,6 +1,5 @@
 #include "geometry/convex_polygon.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "relievo/plate/outline.h"

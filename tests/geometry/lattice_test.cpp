@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "geometry/plane.h"
 #include "support/shapes.h"
 

@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <array>
-#include <random>
-
 #include "support/big_integer.h"
 #include "support/planar_points.h"
 

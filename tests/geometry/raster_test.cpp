@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "geometry/image_filters.h"
 #include "support/shapes.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "geometry/plane.h"
@@ -34,9 +33,7 @@ TEST(SegmentGrid, NearestAgreesWithBruteForce) {
       if (s.curve != 2) least = std::min(least, distance(s, p));
     const NearestSegment found = grid.nearest(p, .05, 2);
     ASSERT_EQ(found.segment == no_index, least == .05);
-    if (found.segment != no_index) {
-      EXPECT_DOUBLE_EQ(found.distance, least);
-    }
+    if (found.segment != no_index) EXPECT_DOUBLE_EQ(found.distance, least);
   }
 }
 

@@ -1,9 +1,5 @@
 #include "geometry/smooth_surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
 #include "support/triangles.h"
@@ -142,10 +138,9 @@ TEST(SmoothSurface, DoesNotSwingBesideAWall) {
   }
   const SmoothSurface surface(field.points, field.triangles, smooth);
   for (std::size_t t = 0; t < smooth.size(); ++t)
-    if (smooth[t]) {
+    if (smooth[t])
       EXPECT_NEAR(surface.at(static_cast<Index>(t), field.place(t, .2, .3)).height,
                   field.points[field.triangles[t][0]].z(), 1e-12);
-    }
 }
 
 }  // namespace

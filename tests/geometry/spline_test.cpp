@@ -1,9 +1,5 @@
 #include "relievo/geometry/spline.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/shapes.h"
@@ -21,12 +17,7 @@ std::vector<Vec2> scattered(std::size_t n, std::uint64_t seed = 1) {
 }
 
 SplineOptions options(int levels, double damping = 0) {
-  SplineOptions o;
-  o.max = Vec2(2, 1);
-  o.cell = std::ldexp(1, 1 - levels);
-  o.levels = levels;
-  o.damping = damping;
-  return o;
+  return {.max = Vec2(2, 1), .cell = std::ldexp(1, 1 - levels), .levels = levels, .damping = damping};
 }
 
 template <typename F>

@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
 #include <limits>
-#include <set>
 
 #include "geometry/delaunay_builder.h"
 #include "support/delaunay_check.h"

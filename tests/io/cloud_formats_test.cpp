@@ -1,10 +1,7 @@
 // Tests the readers of PCD and LAS: the clouds that they return, and their messages about broken fields.
-#include <gtest/gtest.h>
-
 #include <bit>
 #include <charconv>
 
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 
@@ -35,10 +32,10 @@ TEST(Pcd, ColoursMayBeTheBitsOfAFloat) {
 }
 
 TEST(Pcd, CommasMaySeparateNumbers) {
-  const auto file = value_of(
-      read("VERSION 0.7\nFIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
-           "289814.25,4320978.5,170\n1, 2 ,3\n",
-           "a.pcd"));
+  const auto file = file_of(
+      "VERSION 0.7\nFIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
+      "289814.25,4320978.5,170\n1, 2 ,3\n",
+      "a.pcd");
   EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{289814.25, 4320978.5, 170}, {1, 2, 3}}));
 }
 
@@ -91,8 +88,8 @@ TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   // The data are four literal bytes, followed by a copy of 116 bytes that starts four bytes back. The format
   // stores this length minus 2, as 7 + 107.
   const std::string packed = std::string("\x03", 1) + raw(2.F) + std::string("\xE0\x6B\x03", 3);
-  const auto file = value_of(
-      read(head + raw(static_cast<std::uint32_t>(packed.size())) + raw(std::uint32_t{120}) + packed, "scan"));
+  const auto file = file_of(
+      head + raw(static_cast<std::uint32_t>(packed.size())) + raw(std::uint32_t{120}) + packed, "scan");
   EXPECT_EQ(file.cloud.points, std::vector<Vec3>(10, Vec3(2, 2, 2)));
 }
 

@@ -1,14 +1,10 @@
 // Reads files from the test suites of other projects. The files are not part of this project, because
 // their licences do not allow it. Every result must pass check_answer(), and agree with the verdicts in
 // the files' names and with the reports of validators.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "io/numbers.h"
 #include "relievo/core/json_place.h"
-#include "relievo/core/text.h"
 #include "support/read_text.h"
 #include "support/shared_scans.h"
 
@@ -27,9 +23,7 @@ Result<CloudFile> read_at(const fs::path& path) {
   const auto beside = [&](const std::string& name) -> Result<std::vector<std::byte>> {
     if (!fs::is_regular_file(path.parent_path() / name))
       return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
-    const std::string other = content_of(path.parent_path() / name);
-    const auto bytes = std::as_bytes(std::span(other));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    return bytes_of(content_of(path.parent_path() / name));
   };
   return read_cloud(std::as_bytes(std::span(text)), path.string(), beside);
 }
@@ -293,11 +287,10 @@ TEST_F(Corpus, OneModelHasTheSamePointsInE57OfEveryNumber) {
   if (!finest) GTEST_SKIP() << missing_corpus();
   ASSERT_EQ(finest->cloud.size(), 30571U);
   for (const char* other : {"bunnyFloat", "bunnyInt19", "bunnyInt21", "bunnyInt24", "bunnyInt32"}) {
-    const auto file = read_at(rust / cat(other, ".e57"));
-    ASSERT_TRUE(file) << other << file.error().message();
-    ASSERT_EQ(file->cloud.size(), finest->cloud.size()) << other;
+    const auto file = value_of(read_at(rust / cat(other, ".e57")));
+    ASSERT_EQ(file.cloud.size(), finest->cloud.size()) << other;
     for (std::size_t i = 0; i < finest->cloud.size(); ++i)
-      ASSERT_LT((file->cloud.points[i] - finest->cloud.points[i]).norm(), 1e-6) << other << i;
+      ASSERT_LT((file.cloud.points[i] - finest->cloud.points[i]).norm(), 1e-6) << other << i;
   }
 }
 
@@ -311,16 +304,14 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
                                                                    {"tiny_pc_and_images", 2},
                                                                    {"cartesian_invalid_state_single", 1}};
   for (const auto& [name, points] : counts) {
-    const auto file = read_at(folder_ / "cry-inc+e57/testdata" / cat(name, ".e57"));
-    ASSERT_TRUE(file) << name << file.error().message();
-    EXPECT_EQ(file->cloud.size(), points) << name;
+    const auto file = value_of(read_at(folder_ / "cry-inc+e57/testdata" / cat(name, ".e57")));
+    EXPECT_EQ(file.cloud.size(), points) << name;
   }
   const fs::path self = folder_ / "asmaloney+libE57Format-test-data/self";
   for (const char* name : {"ColouredCubeDouble.e57", "ColouredCubeFloat.e57"}) {
-    const auto file = read_at(self / name);
-    ASSERT_TRUE(file) << name;
-    EXPECT_EQ(file->cloud.size(), 7680U);
-    EXPECT_TRUE(file->cloud.has_colours());
+    const auto file = value_of(read_at(self / name));
+    EXPECT_EQ(file.cloud.size(), 7680U);
+    EXPECT_TRUE(file.cloud.has_colours());
   }
   for (const char* broken : {"bad-crc.e57", "InvalidCVHeader.e57", "ZeroPointsInvalid.e57"})
     EXPECT_FALSE(read_at(self / broken)) << broken;
@@ -332,14 +323,12 @@ TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
 TEST_F(Corpus, LazHasThePointsOfItsLas) {
   std::size_t compared = 0;
   for (const fs::path& path : files("visgl+loaders.gl", ".laz")) {
-    const auto packed = read_at(path);
-    ASSERT_TRUE(packed) << path << packed.error().message();
+    const auto packed = value_of(read_at(path));
     const fs::path other = fs::path(path).replace_extension(".las");
     if (!fs::exists(other)) continue;
-    const auto plain = read_at(other);
-    ASSERT_TRUE(plain) << other;
-    EXPECT_EQ(packed->cloud.points, plain->cloud.points) << path;
-    EXPECT_EQ(packed->cloud.colours, plain->cloud.colours) << path;
+    const auto plain = value_of(read_at(other));
+    EXPECT_EQ(packed.cloud.points, plain.cloud.points) << path;
+    EXPECT_EQ(packed.cloud.colours, plain.cloud.colours) << path;
     ++compared;
   }
   EXPECT_GT(compared, 0U);

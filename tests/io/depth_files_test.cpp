@@ -1,18 +1,12 @@
 // Tests reading depth images from PNG and TIFF files, whole and broken.
-#include <gtest/gtest.h>
-
 #include <atomic>
-#include <cmath>
 #include <cstdlib>
 
 #include "relievo/core/image.h"
-#include "relievo/io/read.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
-#include "relievo/scan/depth_image.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
-#include "support/results.h"
 
 // The size in bytes of the largest allocation. The malloc() below measures it: it replaces the system's malloc() in the
 // test program and its libraries. Sanitizers have their own malloc(), so nothing is measured in their builds.
@@ -29,10 +23,6 @@ extern "C" void* malloc(std::size_t bytes) {
 
 namespace relievo {
 namespace {
-
-std::string depth_message_of(const std::string& bytes) {
-  return relievo::message_of(read_depth_image(bytes_of(bytes), "d"));
-}
 
 Image16 grey16() {
   Image16 image{5, 4, 1, {}};
@@ -52,10 +42,10 @@ TEST(ReadDepthImage, ReadsPngOfAnyDepth) {
   for (const auto v : grey.pixels) colour.pixels.insert(colour.pixels.end(), 3, v);
   EXPECT_EQ(read_depth_image(write_png(colour), "d")->values.pixels, eight.values.pixels);
   colour.pixels[4] = 200;
-  EXPECT_EQ(
-      depth_message_of(as_string(write_png(colour))),
-      "d, column 2, row 1: expected a grey picture of depths, found colours; the option channel takes one "
-      "of them, and depth-values luminance their brightness");
+  expect_image_messages(
+      {{as_string(write_png(colour)),
+        ", column 2, row 1: expected a grey picture of depths, found colours; the option channel takes one "
+        "of them, and depth-values luminance their brightness"}});
 }
 
 TEST(ReadDepthImage, TakesOneChannelOfAPngOrItsLuminance) {
@@ -86,7 +76,7 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
 TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
   std::string file = as_string(write_png(grey16()));
   const std::string chunk("\0\0\0\2tRNS\x0B\xB9\x27\xDA\x1F\xDB", 14);
-  const auto image = value_of(read_depth_image(bytes_of(file.insert(file.find("IDAT") - 4, chunk)), "d"));
+  const auto image = image_in(file.insert(file.find("IDAT") - 4, chunk));
   EXPECT_TRUE(std::isnan(image.values[1]));
   for (std::size_t i = 2; i < 20; ++i) EXPECT_EQ(image.values[i], 3001.F * static_cast<float>(i));
   EXPECT_EQ(image.format, "PNG, 16 bits");
@@ -105,15 +95,16 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
        {good.substr(0, 20), with(5, 0), with(12, 'J'), with(16, 0x80), with(19, 0), with(23, 0), with(24, 5),
         with(25, 9), with(26, 1), with(28, 7), with(29, 0), good.substr(0, good.size() - 20),
         good.substr(0, good.size() - 12)}) {
-    const std::string message = depth_message_of(text);
+    const std::string message = image_message(text);
     EXPECT_TRUE(message.starts_with("d, byte ")) << message;
     EXPECT_TRUE(message.contains("expected the data of a PNG picture, found ")) << message;
   }
-  EXPECT_EQ(depth_message_of("GIF89a"),
-            "d: expected a picture of depths (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
-            "heights), found a GIF picture; save it as PNG");
-  EXPECT_EQ(depth_message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
-            "d: expected at least 4 x 4 pixels, found 3 x 4");
+  expect_image_messages(
+      {{"GIF89a",
+        ": expected a picture of depths (PNG, TIFF, JPEG, NPY, PFM, PGM, PPM, BMP, Esri grid, table of "
+        "heights), found a GIF picture; save it as PNG"},
+       {as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)})),
+        ": expected at least 4 x 4 pixels, found 3 x 4"}});
 }
 
 // Returns a PNG chunk that states the given length, which may be wrong. Its checksum is wrong, too. That
@@ -133,12 +124,12 @@ TEST(ReadDepthImage, AllocatesNothingForTextsInPng) {
   for (const char* type : {"tEXt", "zTXt", "iTXt", "sPLT", "sCAL", "pCAL", "iCCP", "quIt"}) {
     const std::string huge = std::string(good).insert(behind_header, png_chunk(type, 7'000'000, "a"));
     largest_allocation = 0;
-    EXPECT_NE(depth_message_of(huge), "no error") << type;
+    EXPECT_NE(image_message(huge), "no error") << type;
     EXPECT_GT(largest_allocation, 0U);
     EXPECT_LT(largest_allocation, 1'000'000U) << type;
     const std::string text =
         std::string(good).insert(behind_header, png_chunk(type, 5, std::string("a\0bcd", 5)));
-    EXPECT_EQ(depth_message_of(text), "no error") << type;
+    EXPECT_EQ(image_message(text), "no error") << type;
   }
 }
 

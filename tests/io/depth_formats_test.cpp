@@ -1,14 +1,11 @@
 // Tests pictures in uncompressed formats: NumPy arrays, portable pixmaps (PNM) and BMP.
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <bit>
 
-#include "relievo/core/text.h"
-#include "relievo/io/read.h"
-#include "support/format_samples.h"
+#include "relievo/io/write.h"
 #include "support/read_text.h"
-#include "support/results.h"
+#include "support/tiff_encoder.h"
 
 namespace relievo {
 namespace {
@@ -22,14 +19,6 @@ std::string values(F value, bool is_by_columns = false) {
   for (int i = 0; i < rows * columns; ++i)
     data += is_by_columns ? value(i / rows, i % rows) : value(i % columns, i / columns);
   return data;
-}
-
-DepthImage image_in(const std::string& file) {
-  return value_of(read_depth_image(bytes_of(file), "d"));
-}
-
-std::string message_in(const std::string& file) {
-  return message_of(read_depth_image(bytes_of(file), "d"));
 }
 
 double number(int column, int row) {
@@ -69,27 +58,24 @@ TEST(DepthNpy, ReadsAllNumbersInBothOrders) {
 }
 
 TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
-  EXPECT_EQ(message_in(npy("<c8", "")),
-            "d: expected an array of numbers, found the type '<c8'; in Python astype('float32') converts it");
-  EXPECT_EQ(message_in(npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", "")),
-            "d: expected an array of numbers, found records; in Python np.stack([a['x'], a['y'], a['z']], "
-            "-1) is an array of points");
-  EXPECT_EQ(message_in(npy("|u1", "", "5, 6, 3")),
-            "d: expected an array of rows and columns, found the shape (5, "
-            "6, 3); in Python a[..., 0] is one of its channels");
-  EXPECT_EQ(
-      message_in(npy("<f4", "", "3, 5, 6")),
-      "d: expected an array of rows and columns, found the shape (3, 5, 6); in Python np.moveaxis(a, 0, -1) "
-      "makes points of it, and a[0] is one of its channels");
-  EXPECT_EQ(message_in(npy("<f4", "", "")), "d: expected an array with rows, found the shape ()");
-  const std::string whole = npy("<f4", values(in_type<float>));
-  EXPECT_EQ(message_in(whole.substr(0, 9)),
-            "d, byte 8: expected the header of an array, found the end of the file");
-  EXPECT_EQ(message_in(whole.substr(0, whole.size() - 1)),
-            cat("d, byte ", whole.size() - 120,
-                ": expected 120 bytes of pixels, found 119; the file is cut, get it anew"));
-  EXPECT_EQ(message_in(npy("<f4", "", "100000, 100000")),
-            "d: expected at most 134217728 pixels, found 100000 x 100000");
+  const std::string whole = npy("<f4", values(in_type<float>)),
+                    shape = ": expected an array of rows and columns, found the shape ";
+  expect_image_messages(
+      {{npy("<c8", ""),
+        ": expected an array of numbers, found the type '<c8'; in Python astype('float32') converts it"},
+       {npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", ""),
+        ": expected an array of numbers, found records; in Python np.stack([a['x'], a['y'], a['z']], -1) is "
+        "an array of points"},
+       {npy("|u1", "", "5, 6, 3"), shape + "(5, 6, 3); in Python a[..., 0] is one of its channels"},
+       {npy("<f4", "", "3, 5, 6"),
+        shape + "(3, 5, 6); in Python np.moveaxis(a, 0, -1) makes points of it, and a[0] is one of its "
+                "channels"},
+       {npy("<f4", "", ""), ": expected an array with rows, found the shape ()"},
+       {whole.substr(0, 9), ", byte 8: expected the header of an array, found the end of the file"},
+       {whole.substr(0, whole.size() - 1),
+        cat(", byte ", whole.size() - 120,
+            ": expected 120 bytes of pixels, found 119; the file is cut, get it anew")},
+       {npy("<f4", "", "100000, 100000"), ": expected at most 134217728 pixels, found 100000 x 100000"}});
 }
 
 // The rows of a PFM start at the bottom. The sign of the last number of its header gives the byte order.
@@ -112,9 +98,9 @@ TEST(DepthPnm, ReadsWholeNumbersFromAbove) {
   expect_numbers(image_in("P5 6 5 65535\n" + values(big_endian)), 1);
   const auto colours = [](int c, int r) { return std::string{static_cast<char>(number(c, r)), '\1', '\2'}; };
   const std::string file = "P6\n6 5\n255\n" + values(colours);
-  EXPECT_TRUE(message_in(file).starts_with("d, column 1, row 1: expected a grey picture of depths"))
-      << message_in(file);
-  expect_numbers(value_of(read_depth_image(bytes_of(file), "d", {false, 1})), 1);
+  EXPECT_TRUE(image_message(file).starts_with("d, column 1, row 1: expected a grey picture of depths"))
+      << image_message(file);
+  expect_numbers(image_in(file, {false, 1}), 1);
 }
 
 TEST(DepthPnm, ReadsNumbersInText) {
@@ -126,20 +112,20 @@ TEST(DepthPnm, ReadsNumbersInText) {
   expect_numbers(image_in("P3 # colours\n6\n5 255 " + values(grey)), 1);
   EXPECT_EQ(image_in("P2\n6 5\n300\n" + values(word)).format, "PNM, 16 bits");
   EXPECT_TRUE(
-      message_in("P2\n6 5\n44\n" + values(word)).ends_with(": expected a number up to 44, found '45'"));
-  EXPECT_EQ(message_in("P2\n4 4\n9\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6"),
-            "d: expected 16 numbers, found 15; the file is cut, get it anew");
-  EXPECT_EQ(message_in("P2\n4 4\n9\n1 2 3 4 5 -6 7 8 9"),
-            "d, byte 19: expected a number up to 9, found '-6'");
+      image_message("P2\n6 5\n44\n" + values(word)).ends_with(": expected a number up to 44, found '45'"));
+  expect_image_messages(
+      {{"P2\n4 4\n9\n1 2 3 4 5 6 7 8 9 1 2 3 4 5 6",
+        ": expected 16 numbers, found 15; the file is cut, get it anew"},
+       {"P2\n4 4\n9\n1 2 3 4 5 -6 7 8 9", ", byte 19: expected a number up to 9, found '-6'"}});
 }
 
 TEST(DepthPnm, SaysWhatIsWrong) {
-  EXPECT_EQ(message_in("Pf\nx 5\n-1\n\1"),
-            "d, byte 3: expected width, height and range of the picture, found 'x'");
-  EXPECT_EQ(message_in("Pf\n0 5\n-1\n\1"), "d, byte 2: expected width and height, found 0 and 5");
-  EXPECT_EQ(message_in("P5\n6 5\n70000\n\1"), "d: expected a largest value from 1 to 65535, found 70000");
-  EXPECT_EQ(message_in("P5\n6 5\n255\n\1"),
-            "d, byte 11: expected 30 bytes of pixels, found 1; the file is cut, get it anew");
+  expect_image_messages(
+      {{"Pf\nx 5\n-1\n\1", ", byte 3: expected width, height and range of the picture, found 'x'"},
+       {"Pf\n0 5\n-1\n\1", ", byte 2: expected width and height, found 0 and 5"},
+       {"P5\n6 5\n70000\n\1", ": expected a largest value from 1 to 65535, found 70000"},
+       {"P5\n6 5\n255\n\1",
+        ", byte 11: expected 30 bytes of pixels, found 1; the file is cut, get it anew"}});
   EXPECT_FALSE(is_picture(bytes_of("P5 10 20 30\nP6 40 50 60\n"))) << "a cloud of named points";
   EXPECT_FALSE(is_picture(bytes_of("P2 10 20 30\nP3 40 50 60\n"))) << "a cloud of named points";
 }
@@ -173,31 +159,42 @@ TEST(DepthBmp, ReadsPalettesAndColoursFromBothSides) {
 }
 
 TEST(DepthBmp, SaysWhatIsNotRead) {
-  EXPECT_EQ(message_in(bmp(8, rows, "", "", 1)),
-            "d: expected a BMP of 1, 4, 8, 24 or 32 bits without compression, "
-            "found 8 bits with compression; save it as PNG");
-  EXPECT_EQ(message_in(bmp(24, 0, "", "")), "d, byte 18: expected width and height, found 6 and 0");
-  EXPECT_EQ(message_in(bmp(24, rows, "", "ab")),
-            "d, byte 54: expected 100 bytes of pixels, found 2; the file is cut, get it anew");
+  expect_image_messages(
+      {{bmp(8, rows, "", "", 1),
+        ": expected a BMP of 1, 4, 8, 24 or 32 bits without compression, found 8 bits with compression; save "
+        "it as PNG"},
+       {bmp(24, 0, "", ""), ", byte 18: expected width and height, found 6 and 0"},
+       {bmp(24, rows, "", "ab"),
+        ", byte 54: expected 100 bytes of pixels, found 2; the file is cut, get it anew"}});
 }
 
 TEST(DepthFormats, AnyDamageGivesAnAnswer) {
-  const std::vector<std::string> files = {npy("<f4", values(in_type<float>)),
+  const std::vector<std::string> files = {as_string(write_png(filled_image<std::uint16_t>(5, 4, 3001))),
+                                          as_string(write_tiff({filled_image(5, 4, 1.F), .1})),
+                                          whole_tiff(),
+                                          npy("<f4", values(in_type<float>)),
                                           "Pf\n6 5\n-1\n" + values(in_type<float>),
                                           "P5\n6 5\n255\n" + values(in_type<std::uint8_t>),
                                           "P2\n6 5\n9\n" + std::string(60, '7'),
                                           "P3\n4 4\n9\n" + replaced(std::string(48, '7'), "7", "7 "),
                                           bmp(32, -rows, "", std::string(4 * rows * columns, '\x7F'))};
+  const auto is_answered = [](const std::string& text) {
+    const auto image = read_image(text);
+    return image ? image->values.size() == image->values.index(0, image->values.height)
+                 : image.error().kind == ErrorKind::input;
+  };
   for (const std::string& file : files)
-    for (std::size_t size = 0; size < file.size(); ++size) (void)message_in(file.substr(0, size));
+    for (std::size_t at = 0; at < file.size(); ++at) {
+      EXPECT_TRUE(is_answered(file.substr(0, at)));
+      for (const char byte : {'\0', '\x7F', '\xFF'}) EXPECT_TRUE(is_answered(patched(file, at, byte)));
+    }
   ASSERT_TRUE(rc::check([&] {
     std::string text = *rc::gen::elementOf(files);
+    const std::size_t most = std::min(text.size(), *rc::gen::element<std::size_t>(90, 1000));
     const int edits = *rc::gen::inRange(1, 5);
     for (int i = 0; i < edits; ++i)
-      text[*rc::gen::inRange<std::size_t>(0, std::min<std::size_t>(text.size(), 90))] =
-          *rc::gen::arbitrary<char>();
-    const auto image = read_depth_image(bytes_of(text), "d");
-    RC_ASSERT(image.has_value() || image.error().kind == ErrorKind::input);
+      text[*rc::gen::inRange<std::size_t>(0, most)] = *rc::gen::arbitrary<char>();
+    RC_ASSERT(is_answered(text));
   }));
 }
 

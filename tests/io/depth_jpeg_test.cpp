@@ -1,10 +1,6 @@
 // Tests JPEG pictures, as depth images and as textures.
-#include <gtest/gtest.h>
-
 #include "io/pictures/jpeg_header.h"
 #include "io/texture.h"
-#include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "support/format_samples.h"
 #include "support/jpeg_encoder.h"
 #include "support/read_text.h"
@@ -54,16 +50,8 @@ std::string exif(int orientation, bool is_big_endian) {
                                  entry(274, static_cast<std::uint32_t>(orientation)) + number(0, 4));
 }
 
-Result<DepthImage> read_picture(const std::string& file, const PictureChannels& channels = {}) {
-  return read_depth_image(bytes_of(file), "d", channels);
-}
-
 DepthImage image_of(const JpegSquares& picture) {
-  return value_of(read_picture(jpeg_of(picture)));
-}
-
-std::string refusal(const std::string& file) {
-  return message_of(read_picture(file));
+  return image_in(jpeg_of(picture));
 }
 
 void expect_levels(const DepthImage& image) {
@@ -91,13 +79,13 @@ TEST(DepthJpeg, ColoursAreChannelsOrLuminance) {
   const int y = 100, blue = 40, red = -30;
   const std::string file = jpeg_of(one_colour(y - 128, blue, red));
   EXPECT_TRUE(
-      refusal(file).starts_with("d, column 1, row 1: expected a grey picture of depths, found colours"))
-      << refusal(file);
+      image_message(file).starts_with("d, column 1, row 1: expected a grey picture of depths, found colours"))
+      << image_message(file);
   const double channels[] = {y + 1.402 * red, y - .344136 * blue - .714136 * red, y + 1.772 * blue};
   for (int c = 0; c < 3; ++c)
-    EXPECT_NEAR(double{value_of(read_picture(file, {false, c + 1})).values.at(4, 4)}, channels[c], .51);
+    EXPECT_NEAR(double{image_in(file, {false, c + 1}).values.at(4, 4)}, channels[c], .51);
   const double luminance = .2126 * channels[0] + .7152 * channels[1] + .0722 * channels[2];
-  EXPECT_NEAR(double{value_of(read_picture(file, {true})).values.at(4, 4)}, luminance, .51);
+  EXPECT_NEAR(double{image_in(file, {true}).values.at(4, 4)}, luminance, .51);
 }
 
 TEST(DepthJpeg, IsTurnedUpright) {
@@ -117,32 +105,29 @@ TEST(DepthJpeg, SaysWhatIsNotRead) {
   JpegSquares prints = grey_squares();
   prints.channels = 4;
   for (std::vector<int>& square : prints.squares) square.resize(4, 0);
-  EXPECT_EQ(
-      refusal(jpeg_of(prints)),
-      "d: expected a JPEG picture of grey or of red, green and blue, found 4 channels, as CMYK of prints "
-      "has; save it as PNG");
-  EXPECT_EQ(refusal("\xFF\xD8\xFF\xE0"),
-            "d: expected the size of a JPEG picture, found none; save it as PNG");
   const std::string file = jpeg_of(grey_squares());
-  std::string wide = file;
   const std::size_t frame = file.find("\xFF\xC0");
-  wide.replace(frame + 5, 4, "\xFF\xDC\xFF\xDC");
-  EXPECT_EQ(refusal(wide), "d: expected at most 134217728 pixels, found 65500 x 65500");
-  wide.replace(frame + 5, 4, "\x20\x20\x20\x20");
-  EXPECT_EQ(refusal(wide), cat("d: expected more data for 67634176 pixels, found ", file.size(),
-                               " bytes; the file is cut, get it anew"));
+  const auto of_size = [&](const char* size) { return std::string(file).replace(frame + 5, 4, size); };
+  expect_image_messages(
+      {{jpeg_of(prints),
+        ": expected a JPEG picture of grey or of red, green and blue, found 4 channels, as CMYK of prints "
+        "has; save it as PNG"},
+       {"\xFF\xD8\xFF\xE0", ": expected the size of a JPEG picture, found none; save it as PNG"},
+       {of_size("\xFF\xDC\xFF\xDC"), ": expected at most 134217728 pixels, found 65500 x 65500"},
+       {of_size("\x20\x20\x20\x20"), cat(": expected more data for 67634176 pixels, found ", file.size(),
+                                         " bytes; the file is cut, get it anew")}});
   std::string deep = file;
   deep[frame + 4] = '\x0C';
-  EXPECT_TRUE(refusal(deep).ends_with(
+  EXPECT_TRUE(image_message(deep).ends_with(
       ": expected the data of a JPEG picture, found: Unsupported JPEG data precision 12"))
-      << refusal(deep);
+      << image_message(deep);
 }
 
 TEST(DepthJpeg, IsRefusedWhereItsPixelsAreCutOrBroken) {
   const std::string file = jpeg_of(grey_squares());
   for (std::size_t size = 0; size + 2 < file.size(); ++size)
-    EXPECT_FALSE(read_picture(file.substr(0, size)).has_value()) << size;
-  EXPECT_EQ(refusal(file.substr(0, file.size() - 3)),
+    EXPECT_FALSE(read_image(file.substr(0, size)).has_value()) << size;
+  EXPECT_EQ(image_message(file.substr(0, file.size() - 3)),
             cat("d, byte ", file.size() - 3,
                 ": expected the data of a JPEG picture, found: Premature end of JPEG file"));
 }
@@ -153,7 +138,7 @@ TEST(DepthJpeg, AnyDamagedByteGivesAnAnswer) {
     for (const int change : {1, 128, 255}) {
       std::string damaged = file;
       damaged[i] = static_cast<char>(damaged[i] ^ change);
-      const auto image = read_picture(damaged);
+      const auto image = read_image(damaged);
       EXPECT_TRUE(image.has_value() || image.error().kind == ErrorKind::input);
     }
 }
@@ -166,7 +151,7 @@ TEST(DepthJpeg, HasAHundredScansAtMost) {
   const std::size_t scan = file.find("\xFF\xDA"), end = file.size() - 2;
   std::string many = file.substr(0, end);
   for (int i = 0; i < 120; ++i) many += file.substr(scan, end - scan);
-  EXPECT_FALSE(read_picture(many + "\xFF\xD9").has_value());
+  EXPECT_FALSE(read_image(many + "\xFF\xD9").has_value());
 }
 
 TEST(JpegHeader, IsFoundBehindOtherSegments) {
@@ -186,9 +171,8 @@ TEST(JpegHeader, IsFoundBehindOtherSegments) {
 }
 
 TEST(Texture, MayBeAJpeg) {
-  const auto texture = io::Texture::read(jpeg_of(one_colour(0, 0, 0)), "a.jpg");
-  ASSERT_TRUE(texture);
-  EXPECT_EQ(texture->at(.5, .5), (Colour{128, 128, 128}));
+  const auto texture = value_of(io::Texture::read(jpeg_of(one_colour(0, 0, 0)), "a.jpg"));
+  EXPECT_EQ(texture.at(.5, .5), (Colour{128, 128, 128}));
   EXPECT_EQ(io::Texture::read(jpeg_of(grey_squares()), "a.jpg")->at(.5, .25), (Colour{51, 51, 51}));
 }
 

@@ -1,6 +1,4 @@
 // Tests E57 files that the test program itself writes. corpus_test.cpp reads files of other programs.
-#include <gtest/gtest.h>
-
 #include "io/e57/pages.h"
 #include "support/e57_encoder.h"
 #include "support/read_text.h"
@@ -47,10 +45,9 @@ TEST(E57, IntegersOfAllWidthsAreUnpacked) {
     E57TestScan scan =
         scan_of(std::vector<double>(50, 0), std::vector<double>(50, 1), std::vector<double>(50, 2));
     scan.columns[1] = e57_integers("cartesianY", minimum, maximum, values);
-    const auto file = read(e57({scan}), "a");
-    ASSERT_TRUE(file) << bits << file.error().message();
+    const auto file = value_of(read(e57({scan}), "a"));
     for (std::size_t i = 0; i < 50; ++i)
-      ASSERT_EQ(file->cloud.points[i].y(), static_cast<double>(values[i])) << bits;
+      ASSERT_EQ(file.cloud.points[i].y(), static_cast<double>(values[i])) << bits;
   }
 }
 

@@ -2,14 +2,12 @@
 #include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
 
-#include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <map>
 
 #include "relievo/scan/depth_image.h"
 #include "support/plate_fronts.h"
-#include "support/results.h"
 
 namespace relievo {
 namespace {

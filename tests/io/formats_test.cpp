@@ -2,10 +2,6 @@
 // of its format.
 #include "io/formats.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

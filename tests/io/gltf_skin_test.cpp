@@ -1,8 +1,5 @@
 #include "io/gltf/gltf_skin.h"
 
-#include <gtest/gtest.h>
-
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

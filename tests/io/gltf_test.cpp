@@ -1,12 +1,8 @@
 // Tests glTF with buffers in other files, and with features that are legal but rare.
 #include "io/gltf/gltf.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
 
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 
@@ -16,10 +12,9 @@ namespace {
 // Reads the glTF text with `files` in the same folder. Adds the names of the files that the reader requests to `asked`.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
-  return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
+  return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) {
     if (asked) asked->push_back(name);
-    if (const auto found = files.find(name); found != files.end()) return bytes_of(found->second);
-    return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
+    return files_beside(files)(name);
   });
 }
 
@@ -41,9 +36,8 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
   for (const char* uri : {"a.bin", "two%20words.bin", "two words.bin", "gr%C3%BCn.bin", "gr\xC3\xBCn.bin",
                           "data/a.bin", "100%.bin", "%61.bin"}) {
     std::vector<std::string> asked;
-    const auto file = read_beside(with_uri(uri), files, &asked);
-    ASSERT_TRUE(file) << uri << ": " << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles) << uri;
+    const auto file = value_of(read_beside(with_uri(uri), files, &asked));
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles) << uri;
     EXPECT_EQ(asked.size(), 1U) << uri;
   }
 }
@@ -83,10 +77,9 @@ TEST(Gltf, ReadsDataOfUrisInBothForms) {
   for (const std::string& uri :
        {"data:application/octet-stream," + escaped, "data:," + escaped,
         "data:;base64," + replaced(replaced(base64(gltf_buffer()), "=", "%3D"), "/", "%2F")}) {
-    const auto file = read(with_uri(uri), "a.gltf");
-    ASSERT_TRUE(file) << uri << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
-    EXPECT_EQ(file->mesh.points, read(glb(), "a.glb")->mesh.points);
+    const auto file = value_of(read(with_uri(uri), "a.gltf"));
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+    EXPECT_EQ(file.mesh.points, read(glb(), "a.glb")->mesh.points);
   }
   EXPECT_EQ(message_of(with_uri("data:abc"), "a.gltf"),
             "a.gltf, buffer 0: expected a comma before the data of the uri, found none");
@@ -286,9 +279,8 @@ TEST(Gltf, ReadsWhatRequiresExtensionsThatLeaveShapesAlone) {
        {"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
         "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp", "KHR_lights_punctual",
         "EXT_lights_image_based", "EXT_meshopt_compression", "KHR_techniques_webgl"}) {
-    const auto file = read(with("\"" + std::string(name) + "\""), "a.glb");
-    ASSERT_TRUE(file) << name << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+    const auto file = value_of(read(with("\"" + std::string(name) + "\""), "a.glb"));
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
   }
   const auto refusal = [](const std::string& found) {
     return "a.glb, extensionsRequired: expected no extension but those that are read here, found " + found +

@@ -1,25 +1,10 @@
 // Tests heights in text files: grids of GIS programs, and tables of numbers, which must not be read as clouds.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <span>
 
-#include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "support/read_text.h"
-#include "support/results.h"
 
 namespace relievo {
 namespace {
-
-DepthImage image_in(const std::string& text) {
-  return value_of(read_depth_image(bytes_of(text), "d"));
-}
-
-std::string message_in(const std::string& text) {
-  return message_of(read_depth_image(bytes_of(text), "d"));
-}
 
 bool is_picture_text(const std::string& text) {
   return is_picture(bytes_of(text));
@@ -69,23 +54,20 @@ TEST(EsriGrid, ConvertsDegrees) {
 }
 
 TEST(EsriGrid, SaysWhatIsWrong) {
-  EXPECT_EQ(message_in("ncols 5\nrows 4\n1 2 3\n"),
-            "d, line 2: expected ncols, nrows, cellsize or another entry of an "
-            "Esri grid with its number, found 'rows 4'");
-  EXPECT_EQ(message_in("ncols 5\ncellsize 1\n1 2 3\n"),
-            "d: expected ncols and nrows of an Esri grid, found 5 and 0");
-  EXPECT_EQ(message_in("ncols 5\n"),
-            "d, line 2: expected the heights of an Esri grid, found the end of the file");
-  EXPECT_EQ(message_in(grid_header + "1 2 x\n"), "d, line 7: expected a height, found 'x'");
-  EXPECT_EQ(message_in(grid_header + "1 2 3\n4 5\n"),
-            "d, line 9: expected 20 heights, found the end of the file after 5");
-  std::string many;
-  for (int i = 0; i < 21; ++i) many += "1 ";
-  EXPECT_EQ(message_in(grid_header + many), "d, line 7: expected 20 heights, found more");
-  EXPECT_EQ(message_in("ncols 500\nnrows 400\ncellsize 1\n1 2 3\n"),
-            "d: expected 500 x 400 heights, found 37 bytes; the file is cut, get it anew");
-  EXPECT_EQ(message_in("ncols 50000\nnrows 40000\ncellsize 1\n1\n"),
-            "d: expected at most 134217728 pixels, found 50000 x 40000");
+  const std::string many = replaced(std::string(21, '1'), "1", "1 ");
+  expect_image_messages(
+      {{"ncols 5\nrows 4\n1 2 3\n",
+        ", line 2: expected ncols, nrows, cellsize or another entry of an Esri grid with its number, found "
+        "'rows 4'"},
+       {"ncols 5\ncellsize 1\n1 2 3\n", ": expected ncols and nrows of an Esri grid, found 5 and 0"},
+       {"ncols 5\n", ", line 2: expected the heights of an Esri grid, found the end of the file"},
+       {grid_header + "1 2 x\n", ", line 7: expected a height, found 'x'"},
+       {grid_header + "1 2 3\n4 5\n", ", line 9: expected 20 heights, found the end of the file after 5"},
+       {grid_header + many, ", line 7: expected 20 heights, found more"},
+       {"ncols 500\nnrows 400\ncellsize 1\n1 2 3\n",
+        ": expected 500 x 400 heights, found 37 bytes; the file is cut, get it anew"},
+       {"ncols 50000\nnrows 40000\ncellsize 1\n1\n",
+        ": expected at most 134217728 pixels, found 50000 x 40000"}});
 }
 
 // Returns a table of the heights of a hill, as text.
@@ -231,7 +213,8 @@ TEST(HeightTable, EmptyFieldsAreMissing) {
 }
 
 TEST(HeightTable, NamesTheLineOfAnotherLength) {
-  EXPECT_EQ(message_in(hill(12, 5, " ") + "1 2 3\n"), "d, line 6: expected 12 heights as in line 1, found 3");
+  EXPECT_EQ(image_message(hill(12, 5, " ") + "1 2 3\n"),
+            "d, line 6: expected 12 heights as in line 1, found 3");
 }
 
 }  // namespace

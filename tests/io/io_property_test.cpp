@@ -1,10 +1,8 @@
 // Tests properties of the readers with generated files, some whole and some broken.
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include "relievo/io/write.h"
 #include "support/e57_encoder.h"
-#include "support/format_samples.h"
 #include "support/laz_encoder.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"

@@ -1,8 +1,5 @@
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
-#include "relievo/scan/scan_file.h"
-
-#include <gtest/gtest.h>
 
 #include <cctype>
 

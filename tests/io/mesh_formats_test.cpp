@@ -1,6 +1,5 @@
 // Tests the readers of STL, OFF, glTF and the faces of PLY and OBJ: the meshes that they return, and their
 // messages about broken fields.
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "support/format_samples.h"
@@ -154,10 +153,10 @@ TEST(Stl, BrokenFieldsAreNamed) {
 }
 
 TEST(Off, ReadsColoursAndNormals) {
-  const auto file =
-      value_of(read("CNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n"
-                    "0 1 0 0 0 1 0.0 0.0 1.0 1.0\n3 0 1 2\n",
-                    "scan"));
+  const auto file = file_of(
+      "CNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n"
+      "0 1 0 0 0 1 0.0 0.0 1.0 1.0\n3 0 1 2\n",
+      "scan");
   EXPECT_EQ(file.cloud.normals, std::vector<Vec3f>(3, Vec3f::UnitZ()));
   EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
   EXPECT_EQ(file.mesh.colours, file.cloud.colours);

@@ -1,7 +1,6 @@
 // Tests attributes in both versions of meshopt's compression. The encoders do not depend on the decoder.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>

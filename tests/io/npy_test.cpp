@@ -1,9 +1,4 @@
 // Tests NumPy arrays of points. tests/io/depth_formats_test.cpp tests arrays that are depth images.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

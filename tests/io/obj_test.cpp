@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
 #include "support/read_text.h"
@@ -96,9 +95,8 @@ TEST(Obj, NormalsThatAreNotThereAreForgotten) {
 
 TEST(Obj, AnEmptyNumberOfANormalIsNone) {
   for (const char* face : {"f 1// 2// 3//", "f 1/1/ 2/2/ 3/3/"}) {
-    const auto file = read(triangle + face, "scan.obj");
-    ASSERT_TRUE(file) << face << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}})) << face;
+    const auto file = value_of(read(triangle + face, "scan.obj"));
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}})) << face;
   }
 }
 
@@ -146,28 +144,30 @@ TEST(Obj, IsToldByItsContent) {
 }
 
 TEST(Obj, BadLinesAreNamed) {
-  const std::vector<std::pair<std::string, std::string>> all = {
-      {"v 1 2\n", "line 1: expected 3 numbers, found the end of the line"},
-      {"v 1 2 x\n", "line 1: expected 3 numbers, found 'x'"},
-      {"v 1,5 2 3\n", "line 1: expected 3 numbers, found '1,5'"},
-      {triangle + "vn 1 0\n", "line 4: expected 3 numbers, found the end of the line"},
-      {triangle + "f 1 2 0\n", "line 4: expected the number of a vertex, found '0'"},
-      {triangle + "f 1 2 x\n", "line 4: expected the number of a vertex, found 'x'"},
-      {triangle + "f 1 2 3.0\n", "line 4: expected the number of a vertex, found '3.0'"},
-      {triangle + "f 1 2 -4\n", "line 4: expected the number of a vertex, found '-4'"},
-      {triangle + "f 1 2 -9223372036854775808\n",
-       "line 4: expected the number of a vertex, found '-9223372036854775808'"},
-      {triangle + "f 1 2 99999999999\n", "line 4: expected the number of a vertex, found '99999999999'"},
-      {triangle + "f 1 2 3\nf 1 2 4\n", "line 5: expected an index up to 3, the number of vertices, found 4"},
-      {triangle + two_normals + "f 1//1 2//2 3//-3\n",
-       "line 6: expected the number of a normal, found '3//-3'"},
-      {triangle + two_normals + "f 1//1 2//2 3//x\n",
-       "line 6: expected the number of a normal, found '3//x'"},
-      {triangle + "\\\n\nf 1 \\\n 2 \\\n 7\n",
-       "line 6: expected an index up to 3, the number of vertices, found 7"},
-      {"# nothing\n", "line 2: expected lines 'v x y z', found the end of the file"},
-  };
-  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, "scan.obj"), "scan.obj, " + message);
+  expect_messages("scan.obj",
+                  {
+                      {"v 1 2\n", ", line 1: expected 3 numbers, found the end of the line"},
+                      {"v 1 2 x\n", ", line 1: expected 3 numbers, found 'x'"},
+                      {"v 1,5 2 3\n", ", line 1: expected 3 numbers, found '1,5'"},
+                      {triangle + "vn 1 0\n", ", line 4: expected 3 numbers, found the end of the line"},
+                      {triangle + "f 1 2 0\n", ", line 4: expected the number of a vertex, found '0'"},
+                      {triangle + "f 1 2 x\n", ", line 4: expected the number of a vertex, found 'x'"},
+                      {triangle + "f 1 2 3.0\n", ", line 4: expected the number of a vertex, found '3.0'"},
+                      {triangle + "f 1 2 -4\n", ", line 4: expected the number of a vertex, found '-4'"},
+                      {triangle + "f 1 2 -9223372036854775808\n",
+                       ", line 4: expected the number of a vertex, found '-9223372036854775808'"},
+                      {triangle + "f 1 2 99999999999\n",
+                       ", line 4: expected the number of a vertex, found '99999999999'"},
+                      {triangle + "f 1 2 3\nf 1 2 4\n",
+                       ", line 5: expected an index up to 3, the number of vertices, found 4"},
+                      {triangle + two_normals + "f 1//1 2//2 3//-3\n",
+                       ", line 6: expected the number of a normal, found '3//-3'"},
+                      {triangle + two_normals + "f 1//1 2//2 3//x\n",
+                       ", line 6: expected the number of a normal, found '3//x'"},
+                      {triangle + "\\\n\nf 1 \\\n 2 \\\n 7\n",
+                       ", line 6: expected an index up to 3, the number of vertices, found 7"},
+                      {"# nothing\n", ", line 2: expected lines 'v x y z', found the end of the file"},
+                  });
 }
 
 }  // namespace

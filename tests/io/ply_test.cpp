@@ -1,6 +1,3 @@
-#include <gtest/gtest.h>
-
-#include "relievo/core/text.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"
 
@@ -157,8 +154,13 @@ struct Corruption {
   std::string what, by, message;
 };
 
+void expect_named(const std::vector<Corruption>& all) {
+  for (const auto& [what, by, message] : all)
+    EXPECT_EQ(message_of(change(what, by), "scan.ply"), "scan.ply, " + message);
+}
+
 TEST(PlyHeader, EachCorruptedFieldIsNamed) {
-  const std::vector<Corruption> all = {
+  expect_named({
       {"format ascii 1.0", "format text 1.0",
        "line 2: expected ascii, binary_little_endian or binary_big_endian, found 'text'"},
       {"format ascii 1.0", "format ascii 2.0", "line 2: expected version 1.0 of PLY, found '2.0'"},
@@ -196,9 +198,7 @@ TEST(PlyHeader, EachCorruptedFieldIsNamed) {
        "line 3: expected the number of elements, found '18446744073709551617'"},
       {"vertex 3", "vertex 4000000000",
        "line 10: expected 4000000000 rows of element vertex, found the end of the file after 3"},
-  };
-  for (const auto& [what, by, message] : all)
-    EXPECT_EQ(message_of(change(what, by), "scan.ply"), "scan.ply, " + message);
+  });
 }
 
 TEST(PlyHeader, PromisesOfHugeSkippedElementsAreErrors) {
@@ -215,15 +215,13 @@ TEST(PlyHeader, PromisesOfHugeSkippedElementsAreErrors) {
 }
 
 TEST(PlyAscii, BadBodyIsNamed) {
-  const std::vector<Corruption> all = {
+  expect_named({
       {"4 5 6", "4 five 6", "line 9: expected a number for y, found 'five'"},
       {"4 5 6", "4 5,0 6", "line 9: expected a number for y, found '5,0'"},
       {"8.25 1e6", "8.25", "line 10: expected 3 rows of element vertex, found the end of the file after 2"},
       {"4 5 6\n-7.5 8.25 1e6\n", "",
        "line 8: expected 3 rows of element vertex, found the end of the file after 1"},
-  };
-  for (const auto& [what, by, message] : all)
-    EXPECT_EQ(message_of(change(what, by), "scan.ply"), "scan.ply, " + message);
+  });
 }
 
 TEST(PlyAscii, BadListLengthIsNamed) {

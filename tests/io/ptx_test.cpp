@@ -1,6 +1,4 @@
 // Tests PTX files. Each of their scans has a transformation matrix.
-#include <gtest/gtest.h>
-
 #include "support/read_text.h"
 
 namespace relievo {

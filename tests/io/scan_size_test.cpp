@@ -1,7 +1,4 @@
 
-#include <gtest/gtest.h>
-
-#include "relievo/io/read.h"
 #include "relievo/io/write.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"

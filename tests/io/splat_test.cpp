@@ -1,10 +1,5 @@
 // Tests files of Gaussian splats: PLY files with the properties of splats, and .splat files.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "core/angle.h"
-#include "relievo/core/text.h"
 #include "relievo/io/stream.h"
 #include "support/format_samples.h"
 #include "support/ply_encoder.h"

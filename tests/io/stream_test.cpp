@@ -1,12 +1,6 @@
 #include "relievo/io/stream.h"
 #include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "relievo/core/parallel.h"
-#include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
@@ -116,9 +110,7 @@ TEST(StreamFront, ReadsCloudsWithoutNormals) {
   const StreamedCloud it = streamed(write_ply(cloud));
   EXPECT_FALSE(it.cloud.has_normals());
   for (const Vec3& p : it.cloud.points)
-    if (p.head<2>().norm() < .9) {
-      EXPECT_GT(p.norm(), .95);
-    }
+    if (p.head<2>().norm() < .9) EXPECT_GT(p.norm(), .95);
 }
 
 TEST(StreamFront, LeavesOutStraysAndPointsThatAreNotFinite) {
@@ -266,8 +258,7 @@ TEST(StreamFront, ReadsNothingBehindTheEndOfTheFileForNoPoints) {
 
 TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   const Cloud whole = test::sphere(60000, 1);
-  ReliefOptions options;
-  options.height_mm = 5;
+  ReliefOptions options{{.height_mm = 5}};
   const auto direct = make_relief(whole, options);
   const auto by_stream = make_relief(streamed(write_ply(whole), front, 30000).cloud, options);
   ASSERT_TRUE(direct && by_stream);

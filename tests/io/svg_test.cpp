@@ -1,7 +1,5 @@
 #include "relievo/io/svg.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 

@@ -1,11 +1,6 @@
 // Tests pictures that are textures, and the OBJ and glTF meshes that use them.
 #include "io/texture.h"
 
-#include <gtest/gtest.h>
-
-#include <map>
-
-#include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
@@ -31,15 +26,14 @@ std::string png(int channels = 3) {
 }
 
 TEST(Texture, HasThePixelsAtTheirMiddlesAndRepeats) {
-  const auto texture = io::Texture::read(png(), "a.png");
-  ASSERT_TRUE(texture);
+  const auto texture = value_of(io::Texture::read(png(), "a.png"));
   for (int y = 0; y < 4; ++y)
     for (int x = 0; x < 4; ++x)
       for (const int turns : {-2, 0, 1})
-        EXPECT_EQ(texture->at((x + .5) / 4 + turns, (y + .5) / 4 - turns), colour_at(x, y));
-  EXPECT_EQ(texture->at(.25, .125), (Colour{30, 0, 5})) << "half way between two pixels";
-  EXPECT_EQ(texture->at(0, .125), (Colour{90, 0, 14})) << "between the last column and the first";
-  EXPECT_EQ(texture->at(std::nan(""), 0), Colour{});
+        EXPECT_EQ(texture.at((x + .5) / 4 + turns, (y + .5) / 4 - turns), colour_at(x, y));
+  EXPECT_EQ(texture.at(.25, .125), (Colour{30, 0, 5})) << "half way between two pixels";
+  EXPECT_EQ(texture.at(0, .125), (Colour{90, 0, 14})) << "between the last column and the first";
+  EXPECT_EQ(texture.at(std::nan(""), 0), Colour{});
 }
 
 TEST(Texture, GreyPicturesAreGreyAndOtherFilesNone) {
@@ -50,11 +44,7 @@ TEST(Texture, GreyPicturesAreGreyAndOtherFilesNone) {
 using Files = std::map<std::string, std::string>;
 
 CloudFile read_with(const std::string& text, const std::string& name, const Files& files) {
-  return value_of(
-      read_cloud(bytes_of(text), name, [&](const std::string& wanted) -> Result<std::vector<std::byte>> {
-        if (const auto found = files.find(wanted); found != files.end()) return bytes_of(found->second);
-        return std::unexpected(Error{ErrorKind::input, wanted, {}, "expected a file"});
-      }));
+  return value_of(read_cloud(bytes_of(text), name, files_beside(files)));
 }
 
 // The corners of both triangles are at the centres of three pixels: the lower left pixel, its right neighbour

@@ -1,13 +1,8 @@
 // Tests the tags of a TIFF that say which of its pictures counts, how this picture is oriented, and how
 // large its pixels are.
-#include <gtest/gtest.h>
-
 #include <array>
 
-#include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "support/read_text.h"
-#include "support/results.h"
 #include "support/tiff_encoder.h"
 
 namespace relievo {
@@ -58,7 +53,7 @@ TEST(TiffDirectory, FollowsTheOrientation) {
     std::string file = whole_tiff();
     // The orientation tag replaces the tag SamplesPerPixel, whose default is 1.
     file = patched(patched(file, 10 + 12 * 6, std::uint16_t{274}), 10 + 12 * 6 + 8, orientation);
-    const auto image = value_of(read_depth_image(bytes_of(file), "d.tif")).values;
+    const auto image = image_in(file).values;
     const bool is_turned = orientation >= 5 && orientation <= 8;
     ASSERT_EQ(image.width, is_turned ? height : width) << orientation;
     ASSERT_EQ(image.height, is_turned ? width : height) << orientation;
@@ -70,44 +65,41 @@ TEST(TiffDirectory, FollowsTheOrientation) {
   }
 }
 
-std::string doubles(std::initializer_list<double> values) {
+template <typename T>
+std::string all_raw(std::initializer_list<T> values) {
   std::string bytes;
-  for (const double v : values) bytes += raw(v);
-  return bytes;
-}
-
-std::string shorts(std::initializer_list<std::uint16_t> values) {
-  std::string bytes;
-  for (const std::uint16_t v : values) bytes += raw(v);
+  for (const T v : values) bytes += raw(v);
   return bytes;
 }
 
 Vec2 pixel_size_of(const std::vector<ExtraTag>& tags) {
-  return value_of(read_depth_image(bytes_of(with_tags(tags)), "d.tif")).pixel_size;
+  return image_in(with_tags(tags)).pixel_size;
 }
 
 TEST(TiffDirectory, TakesTheSizeOfPixelsFromGeoTiff) {
-  const ExtraTag scale{33550, 12, 3, doubles({30, 20, 0})};
+  const ExtraTag scale{33550, 12, 3, all_raw<double>({30, 20, 0})};
   EXPECT_EQ(pixel_size_of({}), Vec2(0, 0));
   EXPECT_EQ(pixel_size_of({scale}), Vec2(30, 20));
   const auto keys = [](std::uint16_t key, std::uint16_t value) {
-    return ExtraTag{34735, 3, 8, shorts({1, 1, 0, 1, key, 0, 1, value})};
+    return ExtraTag{34735, 3, 8, all_raw<std::uint16_t>({1, 1, 0, 1, key, 0, 1, value})};
   };
   EXPECT_LT((pixel_size_of({scale, keys(3076, 9002)}) - .3048 * Vec2(30, 20)).norm(), 1e-12);
   // The matrix rotates the picture by 90 degrees: the next column lies 30 lower, and the next row lies 20
   // farther to the right.
-  const ExtraTag matrix{34264, 12, 16, doubles({0, 20, 0, 7, -30, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 1})};
+  const ExtraTag matrix{34264, 12, 16, all_raw<double>({0, 20, 0, 7, -30, 0, 0, 8, 0, 0, 0, 0, 0, 0, 0, 1})};
   EXPECT_EQ(pixel_size_of({matrix}), Vec2(30, 20));
   EXPECT_EQ(pixel_size_of({{33550, 11, 3, raw(1.F) + raw(2.F) + raw(0.F)}}), Vec2(0, 0)) << "not doubles";
-  EXPECT_EQ(pixel_size_of({{33550, 12, 3, doubles({1, 1000, 0})}}), Vec2(0, 0)) << "out of proportion";
-  EXPECT_EQ(pixel_size_of({{33550, 12, 3, doubles({-1, 1, 0})}}), Vec2(0, 0));
+  EXPECT_EQ(pixel_size_of({{33550, 12, 3, all_raw<double>({1, 1000, 0})}}), Vec2(0, 0))
+      << "out of proportion";
+  EXPECT_EQ(pixel_size_of({{33550, 12, 3, all_raw<double>({-1, 1, 0})}}), Vec2(0, 0));
 }
 
 // At 60 degrees north, a degree of longitude is half as long as a degree of latitude, which is 111 km.
 TEST(TiffDirectory, ConvertsDegreesAtTheMiddleRow) {
-  const ExtraTag scale{33550, 12, 3, doubles({.5, .5, 0})},
-      tie{33922, 12, 6, doubles({0, 0, 0, 10, 61, 0})},  // 61: the upper edge, 2 pixels above the middle row
-      keys{34735, 3, 8, shorts({1, 1, 0, 1, 1024, 0, 1, 2})};
+  const ExtraTag scale{33550, 12, 3, all_raw<double>({.5, .5, 0})},
+      tie{33922, 12, 6,
+          all_raw<double>({0, 0, 0, 10, 61, 0})},  // the upper edge; the middle row is 2 pixels lower
+      keys{34735, 3, 8, all_raw<std::uint16_t>({1, 1, 0, 1, 1024, 0, 1, 2})};
   const Vec2 size = pixel_size_of({scale, tie, keys});
   EXPECT_NEAR(size.x() / size.y(), .5, 1e-12);
   EXPECT_NEAR(size.y(), .5 * 111195, 1);
@@ -131,7 +123,7 @@ TEST(TiffDirectory, SkipsThumbnailsAndMasks) {
       return patched(patched(file, 10 + 12 * 6, std::uint16_t{254}), 10 + 12 * 6 + 8, kind);
     };
     const std::string file = two_pictures(with_kind(whole, kind_of_first), with_kind(other, kind_of_second));
-    return value_of(read_depth_image(bytes_of(file), "d.tif")).values[0];
+    return image_in(file).values[0];
   };
   EXPECT_EQ(first_value(0, 0), 0);
   EXPECT_EQ(first_value(1, 0), 100);
@@ -140,10 +132,9 @@ TEST(TiffDirectory, SkipsThumbnailsAndMasks) {
 }
 
 TEST(TiffDirectory, SaysThatThereIsNoPicture) {
-  EXPECT_EQ(
-      message_of(read_depth_image(bytes_of(std::string("II*\0", 4) + std::string(12, '\0')), "d.tif")),
-      "d.tif, byte 4: expected the place of the picture's tags, found 0; the file has no picture, save it "
-      "anew");
+  expect_image_messages({{std::string("II*\0", 4) + std::string(12, '\0'),
+                          ", byte 4: expected the place of the picture's tags, found 0; the file has no "
+                          "picture, save it anew"}});
 }
 
 }  // namespace

@@ -1,10 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <functional>
 
-#include "relievo/core/text.h"
-#include "relievo/scan/scan_file.h"
 #include "support/read_text.h"
 
 namespace relievo {
@@ -307,28 +302,30 @@ TEST(Xyz, ReadsExponentsOfFortran) {
 }
 
 TEST(Xyz, BadLinesAreNamed) {
-  const std::vector<std::pair<std::string, std::string>> all = {
-      {"1 2 3\n4 5\n", "line 2: expected 3 columns as in line 1, found 2"},
-      {"\n1 2 3\n\n4 5 6 7\n", "line 4: expected 3 columns as in line 2, found 4"},
-      {"1 2 3\n4 five 6\n", "line 2: expected a number in column 2, found 'five'"},
-      {"1 2 3\n4 5 6x\n", "line 2: expected a number in column 3, found '6x'"},
-      {"1,2,3\n4,,6\n", "line 2: expected a number in column 2, found nothing"},
-      {"1,2,3\n4 5 6\n", "line 2: expected a number in column 1, found '4 5 6'"},
-      {"1 2\n3 4\n", "line 1: expected at least 3 numbers, found '1 2'"},
-      {"1 2 x\n", "line 1: expected a number in column 3, found 'x'"},
-      {"7\n8\n", "line 2: expected at least 3 numbers, found '8'"},
-      {"hello world\n", "line 1: expected numbers, or names of columns with x, y and z, found 'hello world'"},
-      {"east north up\n1 2 3\n",
-       "line 1: expected numbers, or names of columns with x, y and z, found 'east north up'"},
-      {"x y z\nx y z\n1 2 3\n",
-       "line 2: expected numbers, or names of columns with x, y and z, found 'x y z'"},
-      {"x y z w\n1 2 3\n", "line 2: expected 4 columns as named in line 1, found 3"},
-      {"# nothing\n", "line 2: expected a line of numbers, found the end of the file"},
-      {"x y z\n", "line 2: expected a line of numbers, found the end of the file"},
-      {"5\n", "line 2: expected a line of numbers, found the end of the file"},
-      {";;;\n", "line 1: expected numbers, or names of columns with x, y and z, found ';;;'"},
-  };
-  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, "scan.xyz"), "scan.xyz, " + message);
+  expect_messages(
+      "scan.xyz",
+      {
+          {"1 2 3\n4 5\n", ", line 2: expected 3 columns as in line 1, found 2"},
+          {"\n1 2 3\n\n4 5 6 7\n", ", line 4: expected 3 columns as in line 2, found 4"},
+          {"1 2 3\n4 five 6\n", ", line 2: expected a number in column 2, found 'five'"},
+          {"1 2 3\n4 5 6x\n", ", line 2: expected a number in column 3, found '6x'"},
+          {"1,2,3\n4,,6\n", ", line 2: expected a number in column 2, found nothing"},
+          {"1,2,3\n4 5 6\n", ", line 2: expected a number in column 1, found '4 5 6'"},
+          {"1 2\n3 4\n", ", line 1: expected at least 3 numbers, found '1 2'"},
+          {"1 2 x\n", ", line 1: expected a number in column 3, found 'x'"},
+          {"7\n8\n", ", line 2: expected at least 3 numbers, found '8'"},
+          {"hello world\n",
+           ", line 1: expected numbers, or names of columns with x, y and z, found 'hello world'"},
+          {"east north up\n1 2 3\n",
+           ", line 1: expected numbers, or names of columns with x, y and z, found 'east north up'"},
+          {"x y z\nx y z\n1 2 3\n",
+           ", line 2: expected numbers, or names of columns with x, y and z, found 'x y z'"},
+          {"x y z w\n1 2 3\n", ", line 2: expected 4 columns as named in line 1, found 3"},
+          {"# nothing\n", ", line 2: expected a line of numbers, found the end of the file"},
+          {"x y z\n", ", line 2: expected a line of numbers, found the end of the file"},
+          {"5\n", ", line 2: expected a line of numbers, found the end of the file"},
+          {";;;\n", ", line 1: expected numbers, or names of columns with x, y and z, found ';;;'"},
+      });
 }
 
 TEST(Xyz, NamesOfColumnsMayHaveUnits) {

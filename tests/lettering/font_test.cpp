@@ -1,9 +1,6 @@
 #include "lettering/font.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
@@ -71,10 +68,9 @@ TEST(ShapeLine, RefusesWhatItCannotSet) {
   EXPECT_NE(
       message_of(check_text(text_in("a\nb"))).find("expected one line of text, found a control character"),
       std::string::npos);
-  EXPECT_NE(message_of(check_text(text_in("   "))).find("expected visible characters, found none"),
-            std::string::npos);
-  EXPECT_NE(message_of(check_text(text_in(std::string(5000, 'a')))).find("1000"), std::string::npos);
-  EXPECT_NE(message_of(check_text(text_in("a", "/etc/passwd"))).find("which is none"), std::string::npos);
+  EXPECT_TRUE(message_of(check_text(text_in("   "))).contains("expected visible characters, found none"));
+  EXPECT_TRUE(message_of(check_text(text_in(std::string(5000, 'a')))).contains("1000"));
+  EXPECT_TRUE(message_of(check_text(text_in("a", "/etc/passwd"))).contains("which is none"));
 }
 
 TEST(ShapeLine, SetsNumbersWithinArabicInTheOrderOfReading) {

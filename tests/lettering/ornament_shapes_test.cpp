@@ -1,7 +1,5 @@
 #include "lettering/ornament_shapes.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -23,9 +21,7 @@ OrnamentFrame coin() {
 }
 
 Ornament text_on(TextArc arc, const std::string& text) {
-  Ornament ornament{.text = text, .arc = arc};
-  ornament.size_mm = 3;
-  return ornament;
+  return {.text = text, .arc = arc, .size_mm = 3};
 }
 
 RaisedShape shape_of(const Ornament& ornament, const OrnamentFrame& frame = coin()) {
@@ -71,9 +67,7 @@ TEST(OrnamentShapes, LettersStandAsFarFromTheRimAsTheirInsetSays) {
 
 TEST(OrnamentShapes, LettersKeepClearOfBorders) {
   // Beads take 1.2 mm of the margin of 5 mm. Capitals of 3 mm stand in the middle of the other 3.8 mm.
-  Ornament beads{.kind = OrnamentKind::beads};
-  beads.inset_mm = .2;
-  beads.size_mm = 1;
+  Ornament beads{.kind = OrnamentKind::beads, .size_mm = 1, .inset_mm = .2};
   OrnamentFrame frame = coin();
   frame.border_mm = margin_of_borders(std::array{text_on(TextArc::top, "I"), beads}, frame.margin_mm);
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::top, "I"), frame));
@@ -168,10 +162,7 @@ TEST(OrnamentShapes, StayBelowTheRimUnlessAHeightIsGiven) {
 }
 
 TEST(OrnamentShapes, BeadsAreDiscsAlongTheRim) {
-  Ornament beads{.kind = OrnamentKind::beads};
-  beads.size_mm = 1;
-  beads.inset_mm = .5;
-  beads.count = 40;
+  Ornament beads{.kind = OrnamentKind::beads, .size_mm = 1, .inset_mm = .5, .count = 40};
   const RaisedShape shape = shape_of(beads);
   ASSERT_EQ(shape.outlines.size(), 40U);
   for (const std::vector<Vec2>& outline : shape.outlines)
@@ -180,9 +171,7 @@ TEST(OrnamentShapes, BeadsAreDiscsAlongTheRim) {
 }
 
 TEST(OrnamentShapes, ALineLiesBetweenTwoCircles) {
-  Ornament line{.kind = OrnamentKind::line};
-  line.size_mm = .8;
-  line.inset_mm = 1;
+  Ornament line{.kind = OrnamentKind::line, .size_mm = .8, .inset_mm = 1};
   const auto [low, high] = radii_of(shape_of(line));
   EXPECT_NEAR(low, 28.2, .01);
   EXPECT_NEAR(high, 29, .01);
@@ -196,9 +185,8 @@ TEST(OrnamentShapes, StrandsOfARopeDoNotTouch) {
 }
 
 TEST(OrnamentShapes, DrawingsHaveTheirSizeAndPlace) {
-  Ornament drawing{.kind = OrnamentKind::drawing};
-  drawing.outlines = {{{0, 0}, {200, 0}, {200, 100}, {0, 100}}};
-  drawing.size_mm = 10;
+  Ornament drawing{
+      .kind = OrnamentKind::drawing, .size_mm = 10, .outlines = {{{0, 0}, {200, 0}, {200, 100}, {0, 100}}}};
   drawing.at_mm = Vec2(0, -20);
   const RaisedShape shape = shape_of(drawing);
   EXPECT_EQ(shape.outlines[0][0], Vec2(25, 7.5));
@@ -209,25 +197,22 @@ TEST(OrnamentShapes, RefuseWhatHasNoRoom) {
   const auto refusal = [](const Ornament& ornament) {
     return message_of(ornament_shapes(std::array{ornament}, coin()));
   };
-  EXPECT_NE(refusal(text_on(TextArc::top, std::string(80, 'M'))).find("all around its circle"),
-            std::string::npos);
-  Ornament wide{.kind = OrnamentKind::line};
-  wide.size_mm = 40;
-  EXPECT_NE(refusal(wide).find("within"), std::string::npos);
+  EXPECT_TRUE(refusal(text_on(TextArc::top, std::string(80, 'M'))).contains("all around its circle"));
+  Ornament wide{.kind = OrnamentKind::line, .size_mm = 40};
+  EXPECT_TRUE(refusal(wide).contains("within"));
   EXPECT_NE(
       refusal(Ornament{.kind = OrnamentKind::drawing}).find("expected a drawing with an area, found none"),
       std::string::npos);
-  Ornament sizeless{.kind = OrnamentKind::drawing};
-  sizeless.outlines = {{{0, 0}, {2, 0}, {2, 1}}};
-  EXPECT_NE(refusal(sizeless).find("expected a drawing with its size, found none"), std::string::npos);
+  Ornament sizeless{.kind = OrnamentKind::drawing, .outlines = {{{0, 0}, {2, 0}, {2, 1}}}};
+  EXPECT_TRUE(refusal(sizeless).contains("expected a drawing with its size, found none"));
   // The size of a drawing is its width, so this very narrow drawing would be much too high.
   Ornament thin = sizeless;
   thin.outlines = {{{0, 0}, {1, 0}, {1, 1e14}}};
   thin.size_mm = 10;
-  EXPECT_NE(refusal(thin).find("expected a drawing of at most "), std::string::npos);
+  EXPECT_TRUE(refusal(thin).contains("expected a drawing of at most "));
   Ornament flat = text_on(TextArc::top, "A");
   flat.height_mm = 0;
-  EXPECT_NE(refusal(flat).find("lengths"), std::string::npos);
+  EXPECT_TRUE(refusal(flat).contains("lengths"));
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 #include "paper/heights.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <numeric>
 
-#include "relievo/core/parallel.h"
 #include "support/planar_points.h"
 #include "support/results.h"
 #include "support/same_bits.h"

@@ -1,11 +1,6 @@
 #include "paper/paper_model.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "paper/surface.h"
 #include "relievo/relief/frame.h"
@@ -56,9 +51,7 @@ TEST(PaperRelief, IsFlatWithoutWeightAndLiesOnTheBaseAtItsBoundary) {
   EXPECT_LT(model.make({{0, 1}, .5}).height, 1e-6);
   const Relief relief = model.make({{1, .01}, .1});
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
-    if (model.surface().boundary.is_boundary[i]) {
-      EXPECT_EQ(relief.heights[i], 0);
-    }
+    if (model.surface().boundary.is_boundary[i]) EXPECT_EQ(relief.heights[i], 0);
 }
 
 // The second equation (9) of the paper changes the height of each inner point by gamma k h.
@@ -66,10 +59,9 @@ TEST(PaperRelief, DetailIsProportionalToCurvature) {
   const ReliefModel model = prepared(ball_before_a_sheet());
   const Relief plain = model.make({{1, .01}, 0}), detailed = model.make({{1, .01}, .1});
   for (std::size_t i = 0; i < plain.heights.size(); ++i)
-    if (!model.surface().boundary.is_boundary[i]) {
+    if (!model.surface().boundary.is_boundary[i])
       EXPECT_NEAR(detailed.heights[i] - plain.heights[i],
                   .1 * static_cast<double>(model.surface().curvature.k[i]) * plain.height, 1e-5);
-    }
 }
 
 // If beta > 1, the exact relief is not a multiple of the uncompressed one. The relief from control points
@@ -101,9 +93,7 @@ TEST(PaperRelief, OfControlPointsIsCloseToTheExactOne) {
     const Eigen::VectorXf scaled = exact.dot(reference) / reference.squaredNorm() * reference;
     const float error = (heights_of(4000, compressed) - exact).norm();
     EXPECT_LT(error, .03F * std::sqrt(static_cast<float>(all)) * (exact.maxCoeff() - exact.minCoeff()));
-    if (beta > 1) {
-      EXPECT_LT(error, .5F * (scaled - exact).norm()) << beta;
-    }
+    if (beta > 1) EXPECT_LT(error, .5F * (scaled - exact).norm()) << beta;
   }
 }
 
@@ -124,9 +114,7 @@ TEST(PaperRelief, AndItsFramesAreTheSame) {
       maker.make(options, frame);
       EXPECT_TRUE(frame.is_height_met);
       EXPECT_NEAR(frame.height, .1, 1e-6);
-      if (again > 0) {
-        EXPECT_EQ(frame.times.solves, 1);
-      }
+      if (again > 0) EXPECT_EQ(frame.times.solves, 1);
     }
   }
 }

@@ -1,9 +1,5 @@
 #include "paper/surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include "support/results.h"
@@ -43,9 +39,7 @@ TEST(PaperSurface, HasNoBoundaryAtDepthJumps) {
   const Surface surface =
       value_of(surface_of(test::joined(test::sheet(9000, 1, 0), test::sheet(2000, .45, .5, 9))));
   for (std::size_t i = 0; i < surface.points.size(); ++i)
-    if (surface.points[i].head<2>().cwiseAbs().maxCoeff() < .8) {
-      EXPECT_FALSE(surface.boundary.is_boundary[i]);
-    }
+    if (surface.points[i].head<2>().cwiseAbs().maxCoeff() < .8) EXPECT_FALSE(surface.boundary.is_boundary[i]);
 }
 
 TEST(PaperSurface, RefusesWhatShowsNoArea) {

@@ -1,16 +1,11 @@
 // Tests that previews of finished solids and live pictures of frames come from the same renderer. The same
 // solid must give the same pixels if view, light and material are the same.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <span>
 #include <tuple>
 
 #include "picture/body.h"
 #include "picture/draw_body.h"
 #include "picture/plate_mesh.h"
-#include "relievo/core/text.h"
 #include "relievo/picture/preview.h"
 #include "relievo/plate/forms.h"
 #include "support/surfaces.h"
@@ -52,12 +47,8 @@ const Bodies& bodies() {
 }
 
 RenderOptions options_for(Material material, bool is_fine, double yaw_deg) {
-  RenderOptions options;
-  options.width = 330;
-  options.height = 300;
-  options.mm_per_unit = mm_per_unit;
-  options.material = material;
-  options.is_fine = is_fine;
+  RenderOptions options{
+      .width = 330, .height = 300, .mm_per_unit = mm_per_unit, .material = material, .is_fine = is_fine};
   options.camera.yaw_deg = yaw_deg;
   options.camera.pitch_deg = yaw_deg / 2;
   return options;
@@ -101,10 +92,7 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
 
 // Returns the plate of a coin whose rim has a bevel.
 PlateOptions coin_of(double rim_mm) {
-  PlateOptions plate;
-  plate.outline = Outline::circle;
-  plate.rim = {3, rim_mm, .3 * std::abs(rim_mm)};
-  return plate;
+  return {.outline = Outline::circle, .rim = {3, rim_mm, .3 * std::abs(rim_mm)}};
 }
 
 struct NamedPlate {
@@ -115,11 +103,9 @@ struct NamedPlate {
 BaseOptions uneven_base() {
   Image<float> heights = filled_image(4, 3, 0.F);
   heights.pixels = {0, 1, 3, 2, 1, 0, 2, 1, 2, 2, 0, 1};
-  BaseOptions base;
-  base.kind = BaseKind::image;
-  base.height_mm = 4;
-  base.image = std::make_shared<const Image<float>>(std::move(heights));
-  return base;
+  return {.kind = BaseKind::image,
+          .height_mm = 4,
+          .image = std::make_shared<const Image<float>>(std::move(heights))};
 }
 
 std::vector<std::pair<std::string, BaseOptions>> raised_and_hollow_bases() {
@@ -144,8 +130,7 @@ PlateOptions in_form(PlateOptions plate, Form form) {
 std::vector<NamedPlate> plates_of_all_kinds() {
   std::vector<NamedPlate> plates{{"coin", coin_of(2)}};
   for (const Form form : {Form::relief, Form::mirror, Form::die}) {
-    PlateOptions plate;
-    plate.outline = Outline::none;
+    PlateOptions plate{.outline = Outline::none};
     plates.push_back({cat("no ground ", name_in(form_choices, form)), in_form(plate, form)});
     plate.outline = Outline::ellipse;
     plate.size_mm = {90, 120};
@@ -195,14 +180,13 @@ TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
     for (const double yaw_deg : {0., -55.}) {
       const RenderOptions options = options_for(Material::plaster, false, yaw_deg);
       Picture live, finished;
-      const auto placed = renderer.render_on(plate, bodies().shown(), options, live);
-      ASSERT_TRUE(placed) << name;
+      const auto placed = value_of(renderer.render_on(plate, bodies().shown(), options, live));
       const Box box = Box::of(solid->points);
-      EXPECT_LT((placed->size_mm - box.size()).norm(), is_wrapped ? 1e-2 : 1e-4) << name;
+      EXPECT_LT((placed.size_mm - box.size()).norm(), is_wrapped ? 1e-2 : 1e-4) << name;
       if (!is_wrapped && plate.outline != Outline::none) {
         const Box relief = Box::of(std::span(solid->points).first(bodies().heights.size()));
         const Vec2 middle = (relief.centre() - box.centre()).head<2>();
-        EXPECT_LT((placed->middle_mm - middle).norm(), 1e-6) << name;
+        EXPECT_LT((placed.middle_mm - middle).norm(), 1e-6) << name;
       }
       of_solid.render(options, finished);
       EXPECT_NEAR(live.pixels_per_mm, finished.pixels_per_mm, is_wrapped ? 1e-3 : 1e-5) << name;
@@ -238,9 +222,8 @@ TEST(OneRenderer, FollowsTheHeightOfARim) {
                       fine = options_for(Material::plaster, true, 40);
   Picture first, second, other;
   ASSERT_TRUE(used.render_on(coin_of(1), bodies().shown(), quick, first));
-  const auto placed = used.render_on(coin_of(8), bodies().shown(), quick, second);
-  ASSERT_TRUE(placed);
-  EXPECT_NEAR(placed->size_mm.z(), 3 + 8, 1e-6);
+  const auto placed = value_of(used.render_on(coin_of(8), bodies().shown(), quick, second));
+  EXPECT_NEAR(placed.size_mm.z(), 3 + 8, 1e-6);
   EXPECT_GT(different_values(first.image, second.image), first.image.pixels.size() / 100);
   ASSERT_TRUE(used.render_on(coin_of(8), bodies().shown(), fine, second));
   ASSERT_TRUE(fresh.render_on(coin_of(8), bodies().shown(), fine, other));
@@ -261,8 +244,7 @@ TEST(OneRenderer, DrawsASolidTheSameEachTime) {
   renderer.render(options_for(Material::plaster, true, 0), again);
   EXPECT_EQ(different_values(first.image, again.image), 0U);
   EXPECT_GT(different_values(first.image, other.image), 0U);
-  RenderOptions options;
-  options.width = 0;
+  RenderOptions options{.width = 0};
   renderer.render(options, other);
   EXPECT_TRUE(other.image.pixels.empty());
 }

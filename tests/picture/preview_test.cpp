@@ -1,10 +1,6 @@
 #include "relievo/picture/preview.h"
 #include "relievo/picture/height_map.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <functional>
 #include <set>
 
 #include "relievo/make_relief.h"
@@ -122,16 +118,14 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Finds points of the plate in the front view of a preview. Returns the mean of the three channels at (x,
-// y). All lengths are in millimetres.
+// Returns the mean of the three channels at the point (x, y), in millimetres, in the front view of a plate of 60 x 60.
 struct FrontView {
-  const Image8& image;
-  double width_mm, height_mm;
+  Image8 image;
 
   double operator()(double x, double y) const {
-    const double scale = 0.88 * std::max(image.width / 2, image.height) / std::max(width_mm, height_mm);
-    const int column = static_cast<int>(image.width / 4.0 + (x - width_mm / 2) * scale);
-    const int row = static_cast<int>(image.height / 2.0 - (y - height_mm / 2) * scale);
+    const double scale = 0.88 * std::max(image.width / 2, image.height) / 60;
+    const int column = static_cast<int>(image.width / 4.0 + (x - 30) * scale);
+    const int row = static_cast<int>(image.height / 2.0 - (y - 30) * scale);
     const auto i = static_cast<std::size_t>((row * image.width + column) * 3);
     return (image.pixels[i] + image.pixels[i + 1] + image.pixels[i + 2]) / 3.0;
   }
@@ -149,16 +143,14 @@ TEST(Preview, ShowsTwoPicturesSideBySide) {
 }
 
 TEST(Preview, TheSideTowardsTheLightIsBrighter) {
-  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 300});
-  const FrontView grey{image, 60, 60};
+  const FrontView grey{render_preview(hemisphere_plate(), {.longer_side_px = 300})};
   const double offset = 8;
   EXPECT_GT(grey(30 - offset, 30 + offset), grey(30, 30) + 20);
   EXPECT_GT(grey(30, 30), grey(30 + offset, 30 - offset) + 20);
 }
 
 TEST(Preview, ASphereBrightensTowardsTheLight) {
-  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 600, .light = {1, 0, 1}});
-  const FrontView grey{image, 60, 60};
+  const FrontView grey{render_preview(hemisphere_plate(), {.longer_side_px = 600, .light = {1, 0, 1}})};
   for (double x = 22; x <= 36; x += 2) EXPECT_GT(grey(x, 30), grey(x - 2, 30)) << x;
 }
 
@@ -170,17 +162,15 @@ TEST(Preview, MirroredLightAndShapeGiveAMirroredPicture) {
   const auto front = [](const std::function<double(double, double)>& z) {
     return plate_of(grid_front({50, 50, 100, 100}, z));
   };
-  const Image8 image = render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, .8F}});
-  const Image8 other = render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, .8F}});
-  const FrontView grey{image, 60, 60}, other_grey{other, 60, 60};
+  const FrontView grey{render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, .8F}})},
+      other_grey{render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, .8F}})};
   for (double y = 1.03; y < 59; y += 0.7)
     for (double x = 1.03; x < 59; x += 0.7)
       EXPECT_NEAR(grey(x, y), other_grey(60 - x, y), 4) << x << ", " << y;
 }
 
 TEST(Preview, AFlatGroundIsLightMidGrey) {
-  const Image8 image = render_preview(plate_of(flat_front({50, 50, 2, 2})), {.longer_side_px = 200});
-  const FrontView grey{image, 60, 60};
+  const FrontView grey{render_preview(plate_of(flat_front({50, 50, 2, 2})), {.longer_side_px = 200})};
   for (const double at : {2.0, 20.0, 58.0}) {
     EXPECT_GT(grey(at, at), 150);
     EXPECT_LT(grey(at, at), 190);
@@ -205,9 +195,8 @@ TEST(Preview, AShadowFallsAwayFromTheLight) {
   };
   const Solid solid = plate_of(grid_front({50, 50, 100, 100}, tower));
   for (const Vec2& away : {Vec2(9, 0), Vec2(-9, 0), Vec2(0, 9), Vec2(0, -9)}) {
-    const Image8 image = render_preview(
-        solid, {.longer_side_px = 300, .light = Vec3(-away.x(), -away.y(), 7.2).cast<float>()});
-    const FrontView grey{image, 60, 60};
+    const FrontView grey{render_preview(
+        solid, {.longer_side_px = 300, .light = Vec3(-away.x(), -away.y(), 7.2).cast<float>()})};
     EXPECT_LT(grey(30 + away.x(), 30 + away.y()), 0.75 * grey(30 - away.x(), 30 - away.y()));
     EXPECT_NEAR(grey(30 + away.y(), 30 - away.x()), grey(30 - away.y(), 30 + away.x()), 3);
   }
@@ -225,9 +214,8 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
 TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
   for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {
-    const Image8 image = render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()});
-    ASSERT_EQ(image.pixels.size(), 400U * 200 * 3);
-    const FrontView grey{image, 60, 60};
+    const FrontView grey{render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()})};
+    ASSERT_EQ(grey.image.pixels.size(), 400U * 200 * 3);
     for (const double at : {4.0, 8.0, 12.0, 22.0}) {
       EXPECT_NEAR(grey(30 - at, 30), grey(30 + at, 30), 4) << light << '\n' << at;
       EXPECT_NEAR(grey(30, 30 - at), grey(30, 30 + at), 4) << light << '\n' << at;
@@ -238,8 +226,7 @@ TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
 TEST(Preview, ALampBehindGivesNoLight) {
   const Solid solid = hemisphere_plate();
   const auto top = [&](const Vec3& light) {
-    const Image8 image = render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()});
-    return FrontView{image, 60, 60}(30, 30);
+    return FrontView{render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()})}(30, 30);
   };
   EXPECT_EQ(top({0, 0, -1}), top({0, 0, 0}));
   EXPECT_GT(top({0, 0, 1}), top({0, 0, 0}) + 20);
@@ -247,8 +234,7 @@ TEST(Preview, ALampBehindGivesNoLight) {
 }
 
 TEST(Preview, ALampBesideThePlateLightsOneSide) {
-  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 200, .light = {1, 0, 0}});
-  const FrontView grey{image, 60, 60};
+  const FrontView grey{render_preview(hemisphere_plate(), {.longer_side_px = 200, .light = {1, 0, 0}})};
   for (const double at : {6.0, 9.0, 12.0}) {
     EXPECT_GT(grey(30 + at, 30), grey(30 - at, 30) + 20) << at;
     EXPECT_NEAR(grey(30 + at, 30 - 2), grey(30 + at, 30 + 2), 4) << at;
@@ -258,13 +244,11 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
 // Shadows are computed in the front view, in which the sides of a half cylinder are seen almost edge on. Strips along
 // both edges, each 2 % of the width, are tilted by 74 degrees or more. So these strips have no shadows.
 TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
-  ReliefOptions options;
-  options.height_mm = 4;
+  ReliefOptions options{{.height_mm = 4}};
   options.wrap = *parse_wrap("cylinder:turn=180");
   const auto made = value_of(make_relief(test::sphere(20000, 1), options));
   SolidRenderer renderer(std::make_shared<const Solid>(made.solid));
-  RenderOptions looks;
-  looks.width = 500;
+  RenderOptions looks{.width = 500};
   Picture shaded, plain;
   renderer.render(looks, shaded);
   looks.has_shadows = false;

@@ -9,11 +9,10 @@ namespace {
 // Returns the reach of a tool on a front of 20 mm x 10 mm, in samples of 1 mm. On the left half the tool
 // leaves nothing. On the right half it leaves 1 mm of material in the top row, and 0.1 mm in the other rows.
 std::shared_ptr<const ToolReach> reach() {
-  ToolReach reach;
-  reach.mm_per_sample = 1;
-  reach.tolerance_mm = .01;
-  reach.largest_residual_mm = 1;
-  reach.residual_mm = filled_image(20, 10, 0.F);
+  ToolReach reach{.largest_residual_mm = 1,
+                  .tolerance_mm = .01,
+                  .mm_per_sample = 1,
+                  .residual_mm = filled_image(20, 10, 0.F)};
   for (int y = 0; y < 10; ++y)
     for (int x = 10; x < 20; ++x) reach.residual_mm.at(x, y) = y == 0 ? 1.F : .1F;
   return std::make_shared<const ToolReach>(std::move(reach));

@@ -1,10 +1,5 @@
 #include "relievo/picture/render.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "support/same_bits.h"
 #include "support/surfaces.h"
 
@@ -39,11 +34,7 @@ Field bumps() {
 }
 
 RenderOptions small() {
-  RenderOptions options;
-  options.width = 240;
-  options.height = 200;
-  options.mm_per_unit = 50;
-  return options;
+  return {.width = 240, .height = 200, .mm_per_unit = 50};
 }
 
 Picture picture(const Field& field, const RenderOptions& options) {

@@ -1,12 +1,7 @@
 // Checks that every real scan that is available becomes a valid solid of the requested height.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
@@ -54,8 +49,7 @@ TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");
   const CloudFile file = value_of(read_cloud(shared_bytes(path), path.filename().string()));
-  ReliefOptions options;
-  options.height_mm = 2.5;
+  ReliefOptions options{{.height_mm = 2.5}};
   options.view.is_best = true;
   const auto made = value_of(make_relief(file, options));
   EXPECT_EQ(check_solid(made.solid), "");
@@ -112,11 +106,9 @@ TEST(Data, DepthFramesBecomeSolids) {
     SCOPED_TRACE(name);
     if (!has_shared(name)) GTEST_SKIP() << missing_scan(name);
     const auto image = value_of(read_depth_image(shared_bytes(name), name));
-    DepthOptions depth;
-    depth.camera = camera;
+    DepthOptions depth{.camera = camera};
     const auto cloud = value_of(depth_cloud(image, depth));
-    ReliefOptions options;
-    options.height_mm = 5;
+    ReliefOptions options{{.height_mm = 5}};
     const auto made = value_of(make_relief(cloud.cloud, options));
     EXPECT_EQ(check_solid(made.solid), "");
     EXPECT_NEAR(made.report.height_mm, 5, 5e-3);

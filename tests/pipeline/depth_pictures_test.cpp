@@ -1,7 +1,5 @@
 // Draws depth pictures of clouds in many conventions. Compares the reliefs of these pictures with the reliefs of the
 // clouds.
-#include <gtest/gtest.h>
-
 #include <map>
 
 #include "relievo/io/read.h"
@@ -21,10 +19,7 @@ using test::BesideFigure, test::DepthStorage, test::PictureCamera;
 constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
 
 MadeRelief relief_of(Cloud cloud) {
-  ReliefOptions options;
-  options.width_mm = 80;
-  options.height_mm = 4;
-  options.resolution_mm = .25;
+  ReliefOptions options{{.width_mm = 80, .height_mm = 4, .resolution_mm = .25}};
   return value_of(make_relief(std::move(cloud), options));
 }
 
@@ -103,8 +98,7 @@ struct Judgement {
 };
 
 Judgement judge(const Figure& figure, const DepthStorage& how, const BesideFigure& beside) {
-  DepthOptions options;
-  options.values = how.kind;
+  DepthOptions options{.values = how.kind};
   const int side = figure.heights.width;
   options.range = figure.range_px / side;
   if (how.is_pinhole && how.kind == DepthValues::depth) {

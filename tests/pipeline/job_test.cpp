@@ -41,8 +41,7 @@ TEST(Job, SaysWhatOfTheScanIsLeftOut) {
 
 TEST(LiveModel, MakesTheFramesOfAFrameMaker) {
   LiveModel live = *prepare(job());
-  ReliefOptions options;
-  options.height_mm = 2;
+  ReliefOptions options{{.height_mm = 2}};
   options.tone = *parse_tone_curve("0,0.1;0.5,0.6;1,0.3");
   const LiveFrame made = *live.frame(options);
   Frame frame;
@@ -80,9 +79,8 @@ TEST(LiveModel, KnowsTheWidthThatAPlateLeaves) {
 
 TEST(LiveModel, FramesOnAPlateAreAsHighAsTheSolidWhereNoHeightIsGiven) {
   LiveModel live = *prepare(job());
-  ReliefOptions options;
+  ReliefOptions options{{.diameter_mm = 40}};
   options.outline = Outline::circle;
-  options.diameter_mm = 40;
   const LiveFrame made = *live.frame(options);
   EXPECT_NEAR(made.frame->height * made.stretch * made.mm_per_unit, live.relief(options)->report.height_mm,
               1e-4);
@@ -90,8 +88,7 @@ TEST(LiveModel, FramesOnAPlateAreAsHighAsTheSolidWhereNoHeightIsGiven) {
 
 TEST(LiveModel, DrawsAndRefuses) {
   LiveModel live = *prepare(job());
-  RenderOptions render;
-  render.width = 80;
+  RenderOptions render{.width = 80};
   const auto picture = live.picture({}, render);
   ASSERT_TRUE(picture) << picture.error().message();
   EXPECT_EQ(picture->image.width, 80);

@@ -1,9 +1,4 @@
 // Tests reliefs on plates with rims, from the cloud to the solid.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
 #include "support/results.h"
@@ -20,12 +15,8 @@ MadeRelief made(const ReliefOptions& options) {
 }
 
 ReliefOptions coin_options() {
-  ReliefOptions options;
-  options.width_mm = 20;
-  options.height_mm = .8;
-  options.margin_mm = 1;
+  ReliefOptions options{{.width_mm = 20, .height_mm = .8, .margin_mm = 1, .rim_mm = 2}};
   options.outline = Outline::circle;
-  options.rim_mm = 2;
   return options;
 }
 
@@ -65,10 +56,7 @@ TEST(MakePlates, ADieIsTheCoinTurnedOver) {
 }
 
 TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
-  ReliefOptions options;
-  options.width_mm = 20;
-  options.height_mm = .8;
-  options.margin_mm = 1;
+  ReliefOptions options{{.width_mm = 20, .height_mm = .8, .margin_mm = 1}};
   options.wrap = *parse_wrap("cylinder:diameter=30");
   const MadeRelief shell = made(options);
   ASSERT_TRUE(shell.report.wrap);

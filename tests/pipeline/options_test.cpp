@@ -1,10 +1,7 @@
 #include "relievo/options.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 
-#include "relievo/core/text.h"
 #include "relievo/option_table.h"
 #include "relievo/relief/weights.h"
 #include "support/results.h"
@@ -20,19 +17,21 @@ TEST(Options, DefaultsAreValid) {
 }
 
 TEST(Options, OfThePapersMethodAreThePapers) {
-  ReliefOptions options;
-  options.alpha = 4;
+  ReliefOptions options{{.alpha = 4}};
   EXPECT_EQ(message_of(check(options)), "no error");
   EXPECT_EQ(options.effective_method(), Method::paper);
   EXPECT_FALSE(options.effective_height_mm());
   EXPECT_EQ(options.effective_alpha(), 4);
   EXPECT_EQ(options.effective_saturation(), .01);
   EXPECT_EQ(options.effective_detail(), .02);
+  options = {{.height_mm = 3}};
+  options.method = Method::paper;
+  EXPECT_EQ(options.effective_saturation(), .01);
+  EXPECT_EQ(options.effective_detail(), .02);
 }
 
 TEST(Options, WithAHeightCompressEvenly) {
-  ReliefOptions options;
-  options.height_mm = 3;
+  ReliefOptions options{{.height_mm = 3}};
   EXPECT_EQ(options.effective_saturation(), 0);
   EXPECT_EQ(options.effective_detail(), .04);
   options.saturation = 2;
@@ -42,8 +41,7 @@ TEST(Options, WithAHeightCompressEvenly) {
 }
 
 TEST(Options, OutOfRangeAreNamed) {
-  ReliefOptions options;
-  options.width_mm = -5;
+  ReliefOptions options{{.width_mm = -5}};
   EXPECT_EQ(message_of(check(options)), "width: expected a number from 0.1 to 100000, found -5");
   options.width_mm = std::numeric_limits<double>::quiet_NaN();
   expect_error(check(options), "width");
@@ -55,15 +53,8 @@ TEST(Options, OutOfRangeAreNamed) {
   expect_error(check(options), "thickness");
 }
 
-TEST(Options, TheBestViewFindsWhatIsUp) {
-  const Result<ReliefOptions> options = parse_options({{"view", "auto"}});
-  ASSERT_TRUE(options);
-  EXPECT_TRUE(options->view.is_best);
-}
-
 TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
-  ReliefOptions options;
-  options.diameter_mm = 80;
+  ReliefOptions options{{.diameter_mm = 80}};
   options.outline = Outline::circle;
   EXPECT_EQ(message_of(check(options)), "no error");
   options.rim_mm = 39;  // the margin is 1 mm wide
@@ -89,8 +80,7 @@ TEST(Options, MethodsHaveWhatTheyNeed) {
 }
 
 TEST(Options, HaveOneHeightAtMost) {
-  ReliefOptions options;
-  options.height_of_diagonal = .05;
+  ReliefOptions options{{.height_of_diagonal = .05}};
   EXPECT_EQ(message_of(check(options)), "no error");
   options.alpha = 4;
   EXPECT_EQ(message_of(check(options)), "alpha: expected either height or alpha, found both");
@@ -100,8 +90,7 @@ TEST(Options, HaveOneHeightAtMost) {
 }
 
 TEST(Options, HaveAVerticalScaleOrAHeight) {
-  ReliefOptions options;
-  options.ground_value = 3;
+  ReliefOptions options{{.ground_value = 3}};
   EXPECT_EQ(message_of(check(options)), "ground: expected mm-per-value with it, found none");
   options.mm_per_value = .1;
   EXPECT_EQ(message_of(check(options)), "no error");
@@ -119,25 +108,15 @@ TEST(Options, HaveAVerticalScaleOrAHeight) {
 }
 
 TEST(Options, HaveControlPointsInASubspaceOnly) {
-  ReliefOptions options;
-  options.control_points = 4000;
+  ReliefOptions options{{.control_points = 4000}};
   EXPECT_EQ(message_of(check(options)),
             "control-points: expected mode subspace or auto with it, found exact");
   options.mode = Mode::automatic;
   EXPECT_EQ(message_of(check(options)), "no error");
 }
 
-TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
-  ReliefOptions options;
-  options.height_mm = 3;
-  options.method = Method::paper;
-  EXPECT_EQ(options.effective_saturation(), .01);
-  EXPECT_EQ(options.effective_detail(), .02);
-}
-
 TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
-  ReliefOptions options;
-  options.height_mm = 3;
+  ReliefOptions options{{.height_mm = 3}};
   for (const Method method : {Method::layered, Method::paper}) {
     options.method = method;
     EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << name_of(method);

@@ -1,10 +1,5 @@
 #include "relievo/ornament_places.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
@@ -20,19 +15,12 @@ const ReliefModel& model() {
 }
 
 Ornament text(TextArc arc) {
-  Ornament ornament{.text = "LEX", .arc = arc};
-  ornament.size_mm = 3;
-  return ornament;
+  return {.text = "LEX", .arc = arc, .size_mm = 3};
 }
 
 ReliefOptions coin(std::vector<Ornament> ornaments) {
-  ReliefOptions options;
+  ReliefOptions options{{.width_mm = 40, .height_mm = 2, .margin_mm = 8, .rim_mm = 1.5, .resolution_mm = .8}};
   options.outline = Outline::circle;
-  options.width_mm = 40;
-  options.height_mm = 2;
-  options.margin_mm = 8;
-  options.rim_mm = 1.5;
-  options.resolution_mm = .8;
   options.ornaments = std::move(ornaments);
   return options;
 }

@@ -1,22 +1,14 @@
 // Tests which points of a scene are visible, and the relief that is made from these points.
 #include "relievo/io/write.h"
 #include "relievo/make_relief.h"
-#include "relievo/scan/scan_file.h"
-#include "relievo/scene.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <numbers>
 
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
 #include "support/plate_fronts.h"
 #include "support/same_bits.h"
 #include "support/scene_parts.h"
-#include "support/shapes.h"
 #include "support/triangles.h"
 
 namespace relievo {
@@ -34,8 +26,7 @@ double inner_area(const Surface& surface) {
 
 TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
   const SceneModel cloud = model_of(test::torus(20000, 1, .4)), mesh = model_of(wedge());
-  ReliefOptions options;
-  options.points = 5000;
+  ReliefOptions options{{.points = 5000}};
   for (const SceneModel& model : {cloud, mesh}) {
     const auto alone = value_of(make_relief(*model.file, options)),
                scene = value_of(make_relief(Scene{{model}}, options));
@@ -234,8 +225,7 @@ TEST(SeenScene, CanBeCancelled) {
 TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
   const Scene scene{{model_of(test::torus(20000, 1, .4), at(0, 0, 0, {30, 0, 0})),
                      model_of(wedge(), at(0, 0, 0)), model_of(test::sphere(2000, 1), at(1, 1, 0))}};
-  ReliefOptions options;
-  options.points = 10000;
+  ReliefOptions options{{.points = 10000}};
   expect_same_for_any_threads([&] { return write_stl(value_of(make_relief(scene, options)).solid); });
 }
 
@@ -243,9 +233,7 @@ TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
 TEST(SceneRelief, NoWallStandsBetweenModels) {
   const Scene scene{
       {model_of(test::sphere(60000, 1), at(0, 0, 0)), model_of(test::sphere(60000, 1), at(.9, 0, -8))}};
-  ReliefOptions options;
-  options.width_mm = 100;
-  options.height_mm = 4;
+  ReliefOptions options{{.width_mm = 100, .height_mm = 4}};
   const auto made = value_of(make_relief(scene, options));
   EXPECT_EQ(check_solid(made.solid), "");
   double steepest = 0;

@@ -1,16 +1,11 @@
 #include "relievo/scene.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
 
 #include "relievo/core/parallel.h"
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
 #include "support/scene_parts.h"
-#include "support/shapes.h"
 
 namespace relievo {
 namespace {

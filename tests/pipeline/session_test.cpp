@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <semaphore>
 #include <thread>
 
 #include "support/preparations.h"
@@ -25,8 +23,7 @@ Preparation failing() {
 TEST(Session, Prepares) {
   Session session;
   EXPECT_EQ(session.model(), nullptr);
-  session.open(preparation_of(5000));
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation_of(5000));
   ASSERT_NE(session.model(), nullptr);
   EXPECT_EQ(session.model()->surface().input_points, 5000U);
   EXPECT_FALSE(session.status().is_preparing);
@@ -47,14 +44,12 @@ TEST(Session, HandsOverTheModelOnceAndBeforeItIsReady) {
 
 TEST(Session, AFailedPreparationKeepsTheOldModel) {
   Session session;
-  session.open(preparation_of());
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session);
   const auto model = session.model();
   bool was_ready = false;
   Preparation preparation = failing();
   preparation.ready = [&](const Preparation::Model&) { was_ready = true; };
-  session.open(preparation);
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation);
   ASSERT_TRUE(session.status().error);
   EXPECT_EQ(session.status().error->kind, ErrorKind::input);
   EXPECT_EQ(session.model(), model);
@@ -64,8 +59,7 @@ TEST(Session, AFailedPreparationKeepsTheOldModel) {
 TEST(Session, ANewOpeningForgetsAnOldError) {
   Stuck stuck;
   Session session;
-  session.open(failing());
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, failing());
   session.open(stuck.preparation());
   stuck.has_begun.acquire();
   EXPECT_FALSE(session.status().error);
@@ -76,8 +70,7 @@ TEST(Session, CanBeCancelledBeforeAndAfter) {
   Session session;
   session.cancel();
   EXPECT_FALSE(session.status().error);
-  session.open(preparation_of());
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session);
   session.cancel();
   session.cancel();
   EXPECT_NE(session.model(), nullptr);
@@ -133,8 +126,7 @@ TEST(Session, ShowsALargeCloudBeforeAllItsPointsAreMeasured) {
     first = session.turn(preparation.view);
     other = session.turn(*view_towards(Vec3::UnitX(), Vec3::UnitY()));
   };
-  session.open(preparation);
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation);
   ASSERT_TRUE(first && *first);
   const Surface& early = (*first)->model->surface();
   EXPECT_NEAR(static_cast<double>(early.input_points), 150'000, 1500);
@@ -171,8 +163,7 @@ TEST(Session, LetsGoOfPointsOfWhichNoModelCame) {
   goes_on.release();
   ASSERT_TRUE(session.wait_until_idle(60s));
   EXPECT_TRUE(read.expired());
-  session.open(preparation_of());
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session);
   EXPECT_NE(session.model(), nullptr);
 }
 
@@ -204,8 +195,7 @@ TEST(Session, ANewerOpeningReplacesAnOlder) {
   session.open(first);
   stuck.has_begun.acquire();
   session.open(second);  // cancels the first preparation; the second never begins
-  session.open(third);
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, third);
   ASSERT_NE(session.model(), nullptr);
   EXPECT_EQ(ready, 1);
   EXPECT_EQ(session.model()->surface().input_points, 3000U);

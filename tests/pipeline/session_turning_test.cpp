@@ -1,14 +1,8 @@
 // Tests sessions while their model is being turned.
-#include <gtest/gtest.h>
-
-#include <atomic>
-#include <semaphore>
 #include <thread>
 
-#include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
-#include "relievo/session.h"
 #include "support/preparations.h"
 #include "support/results.h"
 
@@ -24,8 +18,7 @@ View view_to(const char* direction) {
 
 TEST(Session, TurnsWhatWasPrepared) {
   Session session;
-  session.open(preparation_of(20'000));
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation_of(20'000));
   const auto model = session.model();
   const auto turned = value_of(session.turn(view_to("1,1,1")));
   EXPECT_EQ(turned.model->surface().view, view_to("1,1,1"));
@@ -107,8 +100,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   session.open(preparation);
   has_begun.acquire();
   EXPECT_FALSE(session.status().can_turn);
-  session.open(preparation_of(5000));
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation_of(5000));
   EXPECT_NE(session.model(), nullptr);
   EXPECT_EQ(asked, 1);
 }
@@ -116,8 +108,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
 // The view at the end of a turn may already be in preparation when the last picture of the turn is requested.
 TEST(Session, TurningLeavesThePreparationAlone) {
   Session session;
-  session.open(preparation_of());
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session);
   Stuck stuck;
   session.open(stuck.preparation());
   stuck.has_begun.acquire();
@@ -143,8 +134,7 @@ struct StuckTurn {
       }
       return std::make_shared<const Cloud>(test::torus(3000, 1, .4));
     };
-    session.open(preparation);
-    EXPECT_TRUE(session.wait_until_idle(60s));
+    test::open_and_wait(session, preparation);
   }
 
   // Calls turn() in another thread, and calls `end` while turn() waits for the points. Returns the error of
@@ -182,8 +172,7 @@ TEST(Session, TurningCanBeCancelled) {
 TEST(Session, AnOpeningLeavesTurningAlone) {
   StuckTurn stuck;
   EXPECT_EQ(stuck.error_after([&] {
-    stuck.session.open(preparation_of(4000));
-    EXPECT_TRUE(stuck.session.wait_until_idle(60s));
+    test::open_and_wait(stuck.session, preparation_of(4000));
     EXPECT_FALSE(stuck.has_ended);
     stuck.session.cancel();
   }),
@@ -192,8 +181,7 @@ TEST(Session, AnOpeningLeavesTurningAlone) {
 
 TEST(Session, ManyThreadsMayTurn) {
   Session session;
-  session.open(preparation_of(3000));
-  ASSERT_TRUE(session.wait_until_idle(60s));
+  test::open_and_wait(session, preparation_of(3000));
   std::atomic<int> turned = 0;
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)

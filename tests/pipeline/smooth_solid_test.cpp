@@ -2,11 +2,7 @@
 // button with a smaller button in front of it.
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 #include <map>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "relievo/plate/draft_in_file.h"
@@ -90,8 +86,7 @@ TEST_P(SmoothSolid, HasNoFacetsThatShow) {
 // The slope limit removes the rounding at the buttons' edges, which leaves a crease around each button.
 TEST(SmoothSolidWithDraft, HasSmallFacetsThatKeepTheAngle) {
   for (const Form form : {Form::relief, Form::die}) {
-    ReliefOptions options;
-    options.draft_deg = 30;
+    ReliefOptions options{{.draft_deg = 30}};
     options.form = form;
     const MadeRelief made = made_of(two_buttons(20000), options);
     EXPECT_LE(steepest_slope(made.solid), slope_at_draft(30));

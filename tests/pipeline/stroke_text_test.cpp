@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include "relievo/relief/stroke.h"
 #include "support/results.h"
 

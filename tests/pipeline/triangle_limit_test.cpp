@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
 #include "geometry/plane.h"
 #include "relievo/make_relief.h"
@@ -20,11 +15,7 @@ const ReliefModel& model() {
 }
 
 ReliefOptions options_with(double triangles) {
-  ReliefOptions options;
-  options.width_mm = 50;
-  options.height_mm = 3;
-  options.triangles = triangles;
-  return options;
+  return {{.width_mm = 50, .height_mm = 3, .triangles = triangles}};
 }
 
 TEST(TriangleLimit, IsNearlyReachedByAllBodies) {

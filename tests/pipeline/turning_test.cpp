@@ -1,9 +1,5 @@
 #include "relievo/turning.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
@@ -21,17 +17,12 @@ namespace {
 constexpr double height_mm = 3;
 
 RenderOptions shown_at(double mm_per_unit) {
-  RenderOptions options;
-  options.width = 900;
-  options.height = 700;
-  options.mm_per_unit = mm_per_unit;
-  return options;
+  return {.width = 900, .height = 700, .mm_per_unit = mm_per_unit};
 }
 
 // Draws a relief as the studio does while a model is turned.
 Image8 picture_of(const ShownModel& relief) {
-  ReliefOptions options;
-  options.height_mm = height_mm;
+  ReliefOptions options{{.height_mm = height_mm}};
   const double mm = mm_per_unit(relief.model->surface(), options);
   FrameOptions wanted{shape_of(options), height_mm / mm};
   wanted.shape.boundary_width *= relief.spacing_ratio;
@@ -118,8 +109,7 @@ double diameter_before_plane(const Turntable& table, const MeasuredCloud& measur
   Surface surface = find_surface(measured, {}).value();
   surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};
   const ReliefModel before = ReliefModel::prepare(std::move(surface)).value();
-  View view;
-  view.has_plane = false;
+  View view{.has_plane = false};
   return Box::of(table.turn(view, &before).value().model->surface().points).size().x();
 }
 

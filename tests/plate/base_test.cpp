@@ -1,10 +1,8 @@
 #include "relievo/plate/base.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
-#include <string>
 
 #include "support/results.h"
 

@@ -3,8 +3,6 @@
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
-
 #include <vector>
 
 #include "relievo/make_relief.h"
@@ -27,9 +25,8 @@ Cloud balls() {
 }
 
 MadeRelief made(Form form) {
-  ReliefOptions options;
+  ReliefOptions options{{.height_mm = 4}};
   options.form = form;
-  options.height_mm = 4;
   MadeRelief relief = value_of(make_relief(balls(), options));
   EXPECT_EQ(check_solid(relief.solid), "");
   return relief;

@@ -1,11 +1,7 @@
 #include "plate/height_field.h"
 
-#include <gtest/gtest.h>
-
 #include "relievo/make_relief.h"
-#include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 #include "support/triangles.h"
 
@@ -37,8 +33,7 @@ double waves(double x, double y) {
 TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
   for (const auto& [name, outline] : outline_choices)
     for (const double bevel : {.1, .6, 2.}) {
-      PlateOptions options;
-      options.outline = outline;
+      PlateOptions options{.outline = outline};
       if (outline != Outline::none) options.rim = {2, bevel == .1 ? -1. : 1., bevel};
       SCOPED_TRACE(testing::Message() << name << ", bevel " << bevel);
       expect_heights_of(plate_of(grid_front({20, 20, 20, 20}, waves), options));
@@ -48,8 +43,7 @@ TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
 TEST(HeightField, IsTheTrianglesHeightOnBases) {
   for (const char* base : {"fold:angle=20", "fold:angle=15,direction=30", "wave:height=5,length=12",
                            "cylinder:diameter=60", "dome:height=4,hollow"}) {
-    PlateOptions options;
-    options.base = parse_base(base).value();
+    PlateOptions options{.base = parse_base(base).value()};
     for (const double tolerance : {0., .05}) {
       options.simplify_mm = tolerance;
       SCOPED_TRACE(base);
@@ -62,12 +56,8 @@ TEST(HeightField, IsTheTrianglesHeightOfAllForms) {
   const ReliefModel model = test::prepared(test::torus(2500, 1.5, .4));
   for (const auto& [name, form] : form_choices)
     for (const double draft : {0., 20.}) {
-      ReliefOptions options;
-      options.width_mm = 20;
-      options.height_mm = .9;
-      options.resolution_mm = .3;
+      ReliefOptions options{{.width_mm = 20, .height_mm = .9, .rim_mm = 1.5, .resolution_mm = .3}};
       options.outline = Outline::circle;
-      options.rim_mm = 1.5;
       options.form = form;
       if (draft > 0) options.draft_deg = draft;
       if (draft > 0 && form == Form::lithophane) continue;

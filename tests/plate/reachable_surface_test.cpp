@@ -1,9 +1,5 @@
 #include "plate/plate_surface.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/plate_fronts.h"
 #include "support/self_intersections.h"
 
@@ -25,21 +21,13 @@ PlateOptions with_tool(PlateOptions options = {}) {
   return options;
 }
 
-double highest(const Solid& solid) {
-  double z = 0;
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) z = std::max(z, solid.points[i].z());
-  return z;
-}
-
 TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
   for (const PlateOptions& options :
        {PlateOptions{5, 3}, PlateOptions{5, 3, Outline::circle, 5, RimOptions{3, 2, 1}}}) {
     const Solid before = test::plate_of(block(), options),
                 after = test::plate_of(block(), with_tool(options));
-    EXPECT_EQ(check_solid(after), "");
     EXPECT_EQ(test::self_intersections(after), "");
-    EXPECT_EQ(highest(after), highest(before));
+    EXPECT_EQ(test::used_box(after).max.z(), test::used_box(before).max.z());
     const ToolReach was = measure_reach(before, ball_end), is = measure_reach(after, ball_end);
     EXPECT_GT(was.largest_residual_mm, .6);
     EXPECT_GT(is.reached_share, .995);
@@ -71,9 +59,7 @@ TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
 TEST(ReachableSurface, KeepsLevelGroundLevel) {
   const Solid solid = test::plate_of(block(), with_tool());
   for (const Vec3& p : solid.points)
-    if (p.x() < 13 && p.x() > 0) {
-      EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
-    }
+    if (p.x() < 13 && p.x() > 0) EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
 }
 
 TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {
@@ -88,7 +74,6 @@ TEST(ReachableSurface, WithoutGroundIsLifted) {
   front.is_relief.assign(front.triangles.size(), 1);
   const PlateOptions options{5, 3, Outline::none};
   const Solid before = test::plate_of(front, options), after = test::plate_of(front, with_tool(options));
-  EXPECT_EQ(check_solid(after), "");
   ASSERT_EQ(after.points.size(), before.points.size());
   for (std::size_t i = 0; i < before.points.size(); ++i) ASSERT_GE(after.points[i].z(), before.points[i].z());
   EXPECT_LT(measure_reach(after, ball_end).largest_residual_mm,

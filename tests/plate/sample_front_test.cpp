@@ -1,11 +1,5 @@
 #include "plate/front/sample_front.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
 #include "support/plate_fronts.h"
 #include "support/triangles.h"
@@ -48,9 +42,7 @@ TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
     test::expect_counter_clockwise(sampled.points, sampled.triangles);
     EXPECT_NEAR(test::area_of(sampled.points, sampled.triangles), side * side, 1e-6);
     for (const Vec3& p : sampled.points)
-      if (is_far_from_hull(p)) {
-        EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
-      }
+      if (is_far_from_hull(p)) EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
   }
 }
 

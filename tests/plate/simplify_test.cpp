@@ -1,13 +1,9 @@
 #include "relievo/plate/simplify.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <array>
-#include <cmath>
 
-#include "geometry/plane.h"
-#include "relievo/geometry/triangulation.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
 #include "support/triangles.h"

@@ -1,31 +1,17 @@
 #include "relievo/plate/solid.h"
-#include "relievo/io/write.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <charconv>
-#include <cstring>
-#include <span>
-#include <string_view>
 
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
+#include "support/read_solid.h"
 #include "support/triangles.h"
 
 namespace relievo {
 namespace {
 
-using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
-
-Box used_box(const Solid& solid) {
-  Box box;
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) box.extend(solid.points[i]);
-  return box;
-}
+using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::plate_of, test::pyramid_front,
+    test::used_box;
 
 // Expects that all triangles of the front face upwards. Returns their area as seen from above.
 double area_from_above(const Solid& solid) {
@@ -43,7 +29,6 @@ Solid bumpy_plate() {
 
 TEST(MakePlate, FlatFrontGivesABox) {
   const Solid solid = plate_of(flat_front({60, 40, 6, 4}), {5, 3});
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_NEAR(volume_mm3(solid), 70.0 * 50 * 3, 1e-8);
   EXPECT_EQ(used_box(solid).min, Vec3::Zero());
   EXPECT_EQ(used_box(solid).max, Vec3(70, 50, 3));
@@ -74,7 +59,6 @@ TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
   front.ground_mm = 17.3;
   const auto [low, high] = std::ranges::minmax(front.points, {}, [](const Vec3& p) { return p.z(); });
   const Solid solid = plate_of(front, {5, 0.7});
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(used_box(solid).max.z(), (high.z() - low.z()) + 0.7);
   double lowest = 1e9;
   for (std::size_t i = 0; i < front.points.size(); ++i) lowest = std::min(lowest, solid.points[i].z());
@@ -116,7 +100,6 @@ TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
   HeightFieldMesh front = flat_front({10, 10, 2, 2});
   front.points.emplace_back(500, -500, -40);
   const Solid solid = plate_of(front, {5, 3});
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(used_box(solid).max, Vec3(20, 20, 3));
 }
 
@@ -127,7 +110,6 @@ TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
   front.points.emplace_back(50 + 1e-9, 50, 2);
   front.triangles = {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}, {3, 0, 4}};
   const Solid solid = plate_of(front);
-  EXPECT_EQ(check_solid(solid), "");
   EXPECT_NEAR(solid.points[5].z(), solid.points[4].z(), 1e-6);
   EXPECT_EQ(used_box(solid).max.z(), 5);
 }
@@ -202,105 +184,59 @@ TEST(Volume, DoesNotDependOnThePlace) {
 
 // ------------------------------------------------------------------------------------------------- writers
 
-// Reads numbers from the start of bytes, in the byte order of STL and PLY files.
-struct Reader {
-  std::span<const std::byte> rest;
-  template <typename T>
-  T take() {
-    T value{};
-    EXPECT_GE(rest.size(), sizeof value);
-    std::memcpy(&value, rest.data(), sizeof value);
-    rest = rest.subspan(sizeof value);
-    return value;
-  }
-  Vec3f take_vector() {
-    const auto x = take<float>(), y = take<float>(), z = take<float>();
-    return {x, y, z};
-  }
-};
-
 std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+// Expects that a file has the triangles of the solid, in single precision.
+void expect_triangles(const test::ReadSolid& file, const Solid& solid) {
+  ASSERT_EQ(file.triangles.size(), solid.triangles.size());
+  for (std::size_t t = 0; t < solid.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_EQ(file.triangles[t][i], solid.points[solid.triangles[t][i]].cast<float>());
 }
 
 TEST(WriteStl, HoldsEveryTriangleWithItsNormal) {
   const Solid solid = bumpy_plate();
   const std::vector<std::byte> bytes = write_stl(solid);
-  ASSERT_EQ(bytes.size(), 84 + 50 * solid.triangles.size());
-  EXPECT_TRUE(as_text(bytes).starts_with("relievo "));
-  EXPECT_TRUE(as_text(bytes).substr(0, 80).contains(" mm"));
-  Reader reader{std::span(bytes).subspan(80)};
-  EXPECT_EQ(reader.take<std::uint32_t>(), solid.triangles.size());
-  for (const Triangle& t : solid.triangles) {
-    const Vec3f normal = reader.take_vector();
-    const Vec3f a = reader.take_vector(), b = reader.take_vector(), c = reader.take_vector();
-    EXPECT_EQ(a, solid.points[t[0]].cast<float>());
-    EXPECT_EQ(b, solid.points[t[1]].cast<float>());
-    EXPECT_EQ(c, solid.points[t[2]].cast<float>());
+  const std::string_view text = as_text(bytes);
+  EXPECT_TRUE(text.starts_with("relievo "));
+  EXPECT_TRUE(text.substr(0, 80).contains(" mm"));
+  const test::ReadSolid file = test::solid_in_stl(text);
+  expect_triangles(file, solid);
+  for (std::size_t t = 0; t < file.triangles.size(); ++t) {
+    const auto& [a, b, c] = file.triangles[t];
     const Vec3 edges_cross = (b - a).cast<double>().cross((c - a).cast<double>());
+    const Vec3f normal = test::point_at(text, 84 + 50 * t);
     EXPECT_LT((normal.cast<double>() - edges_cross.normalized()).norm(), 1e-6);
-    EXPECT_EQ(reader.take<std::uint16_t>(), 0);
+    EXPECT_EQ(test::value_at<std::uint16_t>(text, 84 + 50 * t + 48), 0);
   }
-  EXPECT_TRUE(reader.rest.empty());
 }
 
 TEST(WriteStl, ATriangleWithoutAreaHasNoNormal) {
   const Solid line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}, 0};
   const std::vector<std::byte> bytes = write_stl(line);
-  Reader reader{std::span(bytes).subspan(84)};
-  EXPECT_EQ(reader.take_vector(), Vec3f::Zero());
+  ASSERT_EQ(bytes.size(), 84U + 50);
+  EXPECT_EQ(test::point_at(as_text(bytes), 84), Vec3f::Zero());
 }
 
 TEST(WritePly, HoldsEveryPointAndTriangle) {
   const Solid solid = bumpy_plate();
   const std::vector<std::byte> bytes = write_ply(solid);
-  const std::string_view end = "end_header\n";
-  const std::size_t header = as_text(bytes).find(end) + end.size();
-  const std::string_view lines = as_text(bytes).substr(0, header);
-  EXPECT_TRUE(lines.starts_with("ply\nformat binary_little_endian 1.0\n"));
-  EXPECT_TRUE(lines.contains("element vertex " + std::to_string(solid.points.size()) + "\n"));
-  EXPECT_TRUE(lines.contains("element face " + std::to_string(solid.triangles.size()) + "\n"));
-  Reader reader{std::span(bytes).subspan(header)};
-  for (const Vec3& p : solid.points) EXPECT_EQ(reader.take_vector(), p.cast<float>());
-  for (const Triangle& t : solid.triangles) {
-    EXPECT_EQ(reader.take<std::uint8_t>(), 3);
-    for (const Index i : t) EXPECT_EQ(reader.take<std::int32_t>(), static_cast<std::int32_t>(i));
-  }
-  EXPECT_TRUE(reader.rest.empty());
-}
-
-// Reads " x y z" from the start of a text.
-template <typename T>
-std::array<T, 3> take_three(std::string_view& text) {
-  std::array<T, 3> numbers{};
-  for (T& x : numbers) {
-    EXPECT_EQ(text.front(), ' ');
-    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), x);
-    EXPECT_EQ(error, std::errc{});
-    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  }
-  return numbers;
+  const std::string_view text = as_text(bytes);
+  EXPECT_TRUE(text.starts_with("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_EQ(test::number_after(text, "element vertex "), solid.points.size());
+  expect_triangles(test::solid_in_ply(text), solid);
 }
 
 TEST(WriteObj, HoldsEveryPointAndTriangleToTheLastBit) {
   Solid solid = bumpy_plate();
   solid.points[3] = {-1.17549435e-38, 3.40282347e38, -1.23456789e-7};  // numbers with the longest texts
   const std::vector<std::byte> bytes = write_obj(solid);
-  std::string_view text = as_text(bytes);
+  const std::string text(as_text(bytes));
   EXPECT_TRUE(text.starts_with("# relievo"));
-  text.remove_prefix(text.find('\n'));
-  for (const Vec3& p : solid.points) {
-    ASSERT_TRUE(text.starts_with("\nv"));
-    text.remove_prefix(2);
-    const auto [x, y, z] = take_three<float>(text);
-    EXPECT_EQ(Vec3f(x, y, z), p.cast<float>());
-  }
-  for (const Triangle& t : solid.triangles) {
-    ASSERT_TRUE(text.starts_with("\nf"));
-    text.remove_prefix(2);
-    EXPECT_EQ(take_three<Index>(text), (Triangle{t[0] + 1, t[1] + 1, t[2] + 1}));
-  }
-  EXPECT_EQ(text, "\n");
+  EXPECT_EQ(std::ranges::count(text, '\n'), 1 + std::ssize(solid.points) + std::ssize(solid.triangles));
+  expect_triangles(test::solid_in_obj(text), solid);
 }
 
 TEST(Writers, AnEmptySolidGivesAnEmptyFileWithItsHeader) {

@@ -1,16 +1,10 @@
 #include "relievo/plate/tool.h"
 #include "relievo/picture/height_map.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
-#include "core/simd.h"
-#include "relievo/core/parallel.h"
 #include "support/plate_fronts.h"
 #include "support/same_bits.h"
 #include "support/shapes.h"

@@ -1,14 +1,5 @@
 #include "relievo/plate/wrap.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-
-#include "relievo/plate/solid.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
 

@@ -1,10 +1,6 @@
 #include "relievo/quality/measures.h"
 #include "relievo/core/image.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/same_bits.h"
 #include "support/surfaces.h"
 

@@ -1,10 +1,5 @@
 #include "quality/surface_measures.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,11 +1,8 @@
 #include "relief/aimed_slopes.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
 
 #include "relievo/relief/frame.h"
-#include "relievo/relief/relief.h"
 #include "support/surfaces.h"
 
 namespace relievo {

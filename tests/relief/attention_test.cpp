@@ -1,19 +1,11 @@
 #include "relievo/relief/attention.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
-#include "relievo/core/parallel.h"
 #include "relievo/relief/frame.h"
-#include "relievo/relief/relief.h"
 #include "relievo/relief/weights.h"
 #include "support/same_bits.h"
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -76,8 +68,7 @@ TEST(Attention, MovesWithTheModel) {
   Cloud moved = cloud;
   for (Vec3& p : moved.points) p = 7 * (turn * p) + Vec3(10, -20, 5);
   for (Vec3f& n : moved.normals) n = (turn * n.cast<double>()).cast<float>();
-  View view;
-  view.R_view_model = turn.transpose();
+  View view{.R_view_model = turn.transpose()};
   const std::vector<double> a = means_of(test::surface_of(cloud)),
                             b = means_of(test::surface_of(moved, view));
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], .02);
@@ -179,10 +170,8 @@ TEST(AttentionOfReliefs, ShiftsContrastToWhereItIsHigh) {
 TEST(AttentionOfReliefs, IsThatOfFramesAndLeavesNothingBehind) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
   const auto frame_of = [](FrameMaker& maker, const Shape& shape) {
-    FrameOptions options;
-    options.shape = shape;
     Frame frame;
-    maker.make(options, frame);
+    maker.make({shape}, frame);
     return frame;
   };
   FrameMaker maker(model);

@@ -1,11 +1,5 @@
 #include "relief/baselines/bounded_reliefs.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "relievo/core/parallel.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/weights.h"
 #include "support/differences.h"

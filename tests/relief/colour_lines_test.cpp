@@ -1,14 +1,7 @@
 #include "relief/colour_lines.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/height_span.h"
-#include "relievo/relief/frame.h"
-#include "relievo/scan/surface.h"
-#include "support/surfaces.h"
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {
@@ -30,9 +23,7 @@ TEST(DarkLines, AreFullOnStripesAndNothingElsewhere) {
     const Vec3& p = surface.points[i];
     if (p.head<2>().cwiseAbs().maxCoeff() > .9) continue;
     const double distance = std::abs(p.x() - .2);
-    if (distance < .015) {
-      EXPECT_GT(lines[i], .99F) << p.transpose();
-    }
+    if (distance < .015) EXPECT_GT(lines[i], .99F) << p.transpose();
     if (distance > .08) {
       EXPECT_EQ(lines[i], 0) << p.transpose();
     }
@@ -45,9 +36,7 @@ TEST(DarkLines, AreTheEdgesOfWideDarkAreas) {
   const std::vector<float> lines = dark_lines(surface);
   float most = 0;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (surface.points[i].x() < -.2 || surface.points[i].x() > .05) {
-      EXPECT_EQ(lines[i], 0);
-    }
+    if (surface.points[i].x() < -.2 || surface.points[i].x() > .05) EXPECT_EQ(lines[i], 0);
     most = std::max(most, lines[i]);
   }
   EXPECT_GT(most, .9F);
@@ -89,13 +78,7 @@ TEST(SinkLines, AreExactlyAsDeepInReliefsAndFrames) {
   EXPECT_EQ(height_span(sunk.heights), .2);
   const std::vector<float> lines = dark_lines(model.surface());
   EXPECT_GT(std::ranges::count_if(lines, [](float line) { return line > .9F; }), 50);
-  FrameMaker frames(model);
-  Frame frame, level;
-  FrameOptions options;
-  options.shape = layered_shape();
-  frames.make(options, level);
-  options.shape = lined;
-  frames.make(options, frame);
+  const Frame level = test::frame_of(model, {}), frame = test::frame_of(model, {lined});
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const double depth = .01 * static_cast<double>(lines[i]);
     EXPECT_NEAR(sunk.heights[i], std::max(plain.heights[i] - depth, 0.0), 1e-6);

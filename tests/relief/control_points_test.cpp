@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 
@@ -58,9 +56,8 @@ TEST(ControlPoints, AreDenserAtTheBoundary) {
     const std::span<const Index> rim = std::span(control.points).first(control.boundary_points);
     for (const Index i : rim) ASSERT_EQ(figure.distance[i], 0);
     for (std::size_t i = 0; i < figure.points.size(); ++i) {
-      if (figure.distance[i] == 0) {
+      if (figure.distance[i] == 0)
         ASSERT_LE(nearest(figure.points[i], figure.points, rim), at_boundary * control.radius);
-      }
     }
   }
 }

@@ -1,9 +1,4 @@
 // Measures the steps that reliefs have at depth jumps between two parts (section 4.1 of the paper).
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "relievo/relief/baselines.h"
 #include "scan/jumps.h"
 #include "scan/measured_cloud.h"

@@ -2,13 +2,9 @@
 #include "relievo/io/write.h"
 #include "relievo/plate/draft_in_file.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "relievo/plate/simplify.h"
@@ -162,16 +158,13 @@ TEST(Draft, TheHeightIsMetExactlyByAllMethods) {
   const ReliefModel model = prepared(figure(6000));
   for (const MethodInfo& info : methods) {
     const DraftOrder order{info.method, default_shape(info.method), .35};
-    const auto made = make_with_draft(model, order, {.8});
-    ASSERT_TRUE(made) << info.name << ": " << made.error().message();
-    const auto [low, high] = std::ranges::minmax(made->heights);
+    const auto made = value_of(make_with_draft(model, order, {.8}));
+    const auto [low, high] = std::ranges::minmax(made.heights);
     EXPECT_NEAR(std::max(high, 0.0) - std::min(low, 0.0), .35, 1e-12) << info.name;
-    EXPECT_EQ(made->height, .35);
-    EXPECT_LE(steepest(slopes_of(model, made->heights)), .8) << info.name;
-    for (std::size_t i = 0; i < made->heights.size(); ++i) {
-      if (model.surface().boundary.is_boundary[i]) {
-        ASSERT_EQ(made->heights[i], 0);
-      }
+    EXPECT_EQ(made.height, .35);
+    EXPECT_LE(steepest(slopes_of(model, made.heights)), .8) << info.name;
+    for (std::size_t i = 0; i < made.heights.size(); ++i) {
+      if (model.surface().boundary.is_boundary[i]) ASSERT_EQ(made.heights[i], 0);
     }
   }
 }
@@ -262,8 +255,7 @@ TEST(Draft, CanBeCancelled) {
 // Measures the draft angle in written files, because later steps may change a front.
 TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = prepared(figure());
-  ReliefOptions options;
-  options.height_mm = 8;
+  ReliefOptions options{{.height_mm = 8}};
   for (const Form form : {Form::relief, Form::mirror, Form::die})
     for (const Outline outline : {Outline::rectangle, Outline::circle, Outline::none})
       for (const bool is_simple : {false, true}) {
@@ -278,18 +270,13 @@ TEST(Draft, IsKeptInFiles) {
             << name_in(form_choices, form) << " " << name_in(outline_choices, outline) << " " << is_simple;
         EXPECT_NEAR(made.report.steepest_deg, found, 1e-9);
         EXPECT_NEAR(made.report.height_mm, 8, 1e-12);
-        if (is_simple) {
-          EXPECT_LE(*made.report.simplification_error_mm, .05);
-        }
+        if (is_simple) EXPECT_LE(*made.report.simplification_error_mm, .05);
       }
 }
 
 TEST(Draft, RimsLeanAsMuch) {
   const ReliefModel model = prepared(figure(6000));
-  ReliefOptions options;
-  options.height_mm = 4;
-  options.draft_deg = 40;
-  options.rim_mm = 5;
+  ReliefOptions options{{.height_mm = 4, .draft_deg = 40, .rim_mm = 5}};
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::hexagon})
     for (const Form form : {Form::relief, Form::die}) {
       options.outline = outline;
@@ -308,9 +295,7 @@ TEST(Draft, RimsLeanAsMuch) {
 }
 
 TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
-  ReliefOptions options;
-  options.alpha = .5;
-  options.draft_deg = 60;
+  ReliefOptions options{{.alpha = .5, .draft_deg = 60}};
   EXPECT_LE(value_of(make_relief(figure(6000), options)).report.steepest_deg, 30);
   options.form = Form::lithophane;
   EXPECT_TRUE(make_relief(figure(6000), options).error().message().contains("draft"));

@@ -1,8 +1,4 @@
 // Tests frames of the generated samples. Also tests frames of real scans, if these are available.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "relievo/io/read.h"
 #include "relievo/relief/frame.h"
 #include "relievo/samples/sample.h"
@@ -45,8 +41,7 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
   FrameMaker maker(model);
   Frame frame;
   for (const Shape& shape : {Shape{{.05, 0}, .04}, Shape{Compression::from_alpha(4, .01), .02}}) {
-    FrameOptions options;
-    options.shape = shape;
+    FrameOptions options{.shape = shape};
     maker.make(options, frame);
     const Relief exact = model.make(shape);
     EXPECT_LT(test::largest_difference(frame.heights, exact.heights), 1e-5 * exact.height);

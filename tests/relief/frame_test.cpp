@@ -1,10 +1,5 @@
 #include "relievo/relief/frame.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-
 #include "support/differences.h"
 #include "support/same_bits.h"
 #include "support/surfaces.h"
@@ -35,8 +30,7 @@ TEST(Frame, AgreesWithTheExactRelief) {
   for (const auto& [style, tolerance] : {std::pair(Style::paper_weights, 1e-5), {Style::layered, 1e-4}})
     for (const double beta : {0.0, .01, 1.0, 2.0})
       for (const double u : {.3, .7, 2.0}) {
-        FrameOptions options;
-        options.shape = {{u, beta}, .04};
+        FrameOptions options{.shape = {{u, beta}, .04}};
         options.shape.style = style;
         const Relief exact = model().make(options.shape);
         const Frame frame = frame_of(options);

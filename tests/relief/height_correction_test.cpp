@@ -1,10 +1,5 @@
 #include "relief/correction/height_correction.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "relievo/relief/weights.h"
 #include "support/differences.h"
 #include "support/surfaces.h"
@@ -241,9 +236,7 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);
   for (std::size_t i = 0; i < z.size(); ++i)
-    if (surface.boundary.is_boundary[i]) {
-      ASSERT_EQ(z[i], 0);
-    }
+    if (surface.boundary.is_boundary[i]) ASSERT_EQ(z[i], 0);
 }
 
 TEST(HeightCorrection, LeavesWhatHasNoHeight) {

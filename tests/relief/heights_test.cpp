@@ -1,11 +1,5 @@
 #include "relievo/relief/heights.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "relief/sliced_ell_matrix.h"
 #include "support/differences.h"
 #include "support/least_squares.h"

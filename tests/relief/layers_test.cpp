@@ -1,9 +1,6 @@
 #include "relievo/relief/layers.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
-#include <numbers>
 
 #include "relief/layered_slopes.h"
 #include "relievo/relief/weights.h"

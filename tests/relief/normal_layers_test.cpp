@@ -1,10 +1,5 @@
 #include "relief/baselines/normal_layers.h"
 
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <cmath>
-
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,10 +1,5 @@
 #include "relief/own_heights.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <set>
 
 #include "relievo/job.h"
@@ -12,7 +7,6 @@
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
 #include "support/mesh_shapes.h"
-#include "support/results.h"
 #include "support/scene_parts.h"
 
 namespace relievo {
@@ -100,9 +94,8 @@ TEST(OwnHeights, LettersAreLevelAndTheirEdgeIsAWall) {
   const Relief relief = relief_of(live);
   const Surface& surface = live.model().surface();
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
-    if (is_own(live, i) && surface.boundary.distance[i] > 1.5 * surface.rho) {
+    if (is_own(live, i) && surface.boundary.distance[i] > 1.5 * surface.rho)
       EXPECT_NEAR(relief.heights[i], .4 * height, 1e-6 * height);
-    }
 }
 
 TEST(OwnHeights, RefuseTheBrushThatProtects) {
@@ -118,9 +111,7 @@ TEST(OwnHeights, OtherModelsKeepTheirHeights) {
   const Relief raised = relief_of(with), usual = relief_of(without);
   ASSERT_EQ(with.model().surface().points, without.model().surface().points);
   for (std::size_t i = 0; i < usual.heights.size(); ++i)
-    if (!is_own(with, i)) {
-      EXPECT_NEAR(raised.heights[i], usual.heights[i], 1e-9 * height);
-    }
+    if (!is_own(with, i)) EXPECT_NEAR(raised.heights[i], usual.heights[i], 1e-9 * height);
 }
 
 // The letter hides the surface of the head behind it, but around the letter this surface continues evenly.
@@ -172,9 +163,8 @@ TEST(OwnHeights, AFigureIsScaledAndKeepsItsForm) {
 
 TEST(OwnHeights, FramesHaveThemToo) {
   LiveModel live = prepared(letter_before_head(.3));
-  FrameMaker maker(live.model());
   Frame frame;
-  maker.make({layered_shape(), height}, frame);
+  FrameMaker(live.model()).make({layered_shape(), height}, frame);
   const Relief relief = relief_of(live);
   double most = 0;
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
@@ -206,17 +196,12 @@ TEST(OwnHeights, BaselinesHaveThemToo) {
 TEST(OwnHeights, RefusesHeightsOutOfRangeAndThePaper) {
   for (const double share : {0., .95, -1.}) {
     const auto made = prepare(Job{legend_beside_head(share)});
-    ASSERT_FALSE(made);
-    EXPECT_EQ(made.error().kind, ErrorKind::option);
-    EXPECT_TRUE(made.error().expected.contains("expected a height from 0.01 to 0.9 of the relief's, found "));
+    expect_error(made, ErrorKind::option, "expected a height from 0.01 to 0.9 of the relief's, found ");
   }
   Job job{legend_beside_head(.2)};
   job.options.method = Method::paper;
-  const auto made = prepare(job);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().input, "method");
-  EXPECT_EQ(made.error().expected,
-            "expected another than paper for a scene in which a model has its own height");
+  expect_error(prepare(job),
+               "method: expected another than paper for a scene in which a model has its own height");
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "relief/sliced_ell_matrix.h"
 
-#include <gtest/gtest.h>
-
 #include "support/same_bits.h"
 #include "support/shapes.h"
 

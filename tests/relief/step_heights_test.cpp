@@ -1,12 +1,8 @@
 #include "relief/step_heights.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <array>
 
 #include "relievo/relief/frame.h"
-#include "relievo/relief/relief.h"
 #include "support/differences.h"
 #include "support/surfaces.h"
 

@@ -1,25 +1,14 @@
 #include "relief/stroke_areas.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
-#include "support/shapes.h"
-#include "support/surfaces.h"
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {
 
-using test::place_of;
-using test::surface_of;
+using test::place_of, test::surface_of;
 
 Stroke lasso_of(std::vector<Vec3> corners, const Vec3& direction, double radius = .1) {
-  return {.name = {},
-          .radius = radius,
-          .points = std::move(corners),
-          .area = StrokeArea::lasso,
-          .direction = direction};
+  return {.radius = radius, .points = std::move(corners), .area = StrokeArea::lasso, .direction = direction};
 }
 
 // Returns the corners of a polygon on an ellipse in the plane at height z.
@@ -49,11 +38,11 @@ TEST(Lasso, HasWhatItEnclosesAndMeasuresFromItsEdge) {
   const StrokePoints area = points_of(surface, stroke);
   const std::vector<std::uint8_t> is_in = members(surface, area);
   for (Index i = 0; i < is_in.size(); ++i) {
-    const Vec3 p = test::place_of(surface, i);
+    const Vec3 p = place_of(surface, i);
     EXPECT_EQ(is_in[i] != 0, std::abs(p.x()) < .5 && std::abs(p.y()) < .3) << p.transpose();
   }
   for (std::size_t k = 0; k < area.points.size(); ++k) {
-    const Vec3 p = test::place_of(surface, area.points[k]);
+    const Vec3 p = place_of(surface, area.points[k]);
     const double inside = std::min(.5 - std::abs(p.x()), .3 - std::abs(p.y()));
     EXPECT_NEAR(area.distances[k], std::max(0., .1 - inside), 1e-9);
   }
@@ -64,14 +53,13 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
   const Cloud ball = test::sphere(40000, 1);
   const Stroke stroke = lasso_of(ellipse(.5, .3, .85), Vec3::UnitZ());
   for (const double degrees : {0., 25., 50., -35.}) {
-    View view;
-    view.R_view_model = turned(degrees, Vec3(1, 2, 0).normalized());
+    View view{.R_view_model = turned(degrees, Vec3(1, 2, 0).normalized())};
     const Surface surface = surface_of(ball, view);
     const std::vector<std::uint8_t> is_in = members(surface, points_of(surface, stroke));
     std::size_t count = 0;
     for (Index i = 0; i < is_in.size(); ++i) {
       if (surface.boundary.is_boundary[i]) continue;
-      const Vec3 p = test::place_of(surface, i);
+      const Vec3 p = place_of(surface, i);
       const double where = std::hypot(p.x() / .5, p.y() / .3);
       if (std::abs(where - 1) < .02) continue;
       EXPECT_EQ(is_in[i] != 0, where < 1 && p.z() > 0) << p.transpose();
@@ -84,12 +72,11 @@ TEST(Lasso, BelongsToTheModelInEveryView) {
 TEST(Lasso, LeavesOutWhatIsFarBehind) {
   // The right half of the square lies 0.8 behind the left half. The lasso is 0.4 wide and has the depth of
   // the left half.
-  const Surface surface = surface_of(test::height_field(
-      40000, 1, [](double x, double) { return x < 0 ? .8 : 0.; }, [](double, double) { return Vec2(0, 0); }));
+  const Surface surface = test::step(.8);
   const Stroke stroke = lasso_of({{-.2, -.2, .8}, {.2, -.2, .8}, {.2, .2, .8}, {-.2, .2, .8}}, Vec3::UnitZ());
   const StrokePoints area = points_of(surface, stroke);
   ASSERT_GT(area.points.size(), 300U);
-  for (const Index i : area.points) EXPECT_GT(test::place_of(surface, i).z(), .5);
+  for (const Index i : area.points) EXPECT_GT(place_of(surface, i).z(), .5);
 }
 
 // Returns two planes that meet in a ridge along x = 0.
@@ -100,7 +87,7 @@ Surface roof(double slope) {
 }
 
 Stroke region_at(const Vec3& seed, double tolerance = 6) {
-  return {.name = {}, .radius = .1, .points = {seed}, .area = StrokeArea::region, .tolerance = tolerance};
+  return {.radius = .1, .points = {seed}, .area = StrokeArea::region, .tolerance = tolerance};
 }
 
 TEST(Region, GrowsUpToACreaseAndNoFurther) {
@@ -108,7 +95,7 @@ TEST(Region, GrowsUpToACreaseAndNoFurther) {
   const std::vector<std::uint8_t> is_in = members(surface, points_of(surface, region_at({-.5, .2, -.3})));
   std::size_t missed = 0, far = 0;
   for (Index i = 0; i < is_in.size(); ++i) {
-    const Vec3 p = test::place_of(surface, i);
+    const Vec3 p = place_of(surface, i);
     EXPECT_TRUE(p.x() < 0 || !is_in[i]) << p.transpose();
     const bool is_far_from_crease = p.x() < -.06 && p.cwiseAbs().head<2>().maxCoeff() < .95;
     far += is_far_from_crease;
@@ -122,7 +109,7 @@ TEST(Region, CrossesACreaseThatIsWithinTheTolerance) {
   const Surface surface = roof(.6);
   const StrokePoints area = points_of(surface, region_at({-.5, .2, -.3}, 180));
   std::size_t right = 0;
-  for (const Index i : area.points) right += test::place_of(surface, i).x() > .1;
+  for (const Index i : area.points) right += place_of(surface, i).x() > .1;
   EXPECT_GT(right, 10000U);
 }
 
@@ -130,25 +117,21 @@ TEST(Region, FadesFromItsEdge) {
   const Surface surface = roof(.6);
   const StrokePoints area = points_of(surface, region_at({-.5, .2, -.3}));
   double edge = -1;  // the largest x of the region
-  for (const Index i : area.points) edge = std::max(edge, test::place_of(surface, i).x());
+  for (const Index i : area.points) edge = std::max(edge, place_of(surface, i).x());
   for (std::size_t k = 0; k < area.points.size(); ++k) {
-    const Vec3 p = test::place_of(surface, area.points[k]);
+    const Vec3 p = place_of(surface, area.points[k]);
     if (std::abs(p.y()) > .7 || p.x() < -.7) continue;
     const double along = (edge - p.x()) * std::hypot(1, .6);
     EXPECT_NEAR(area.distances[k], std::clamp(.1 - along, 0., .1), .05);
-    if (along > .16) {
-      EXPECT_EQ(area.distances[k], 0);
-    }
+    if (along > .16) EXPECT_EQ(area.distances[k], 0);
   }
 }
 
 TEST(Region, DoesNotCrossADepthJump) {
-  const Surface surface = surface_of(test::height_field(
-      40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; },
-      [](double, double) { return Vec2(0, 0); }));
+  const Surface surface = test::step(.25);
   const StrokePoints area = points_of(surface, region_at({-.5, 0, .25}, 180));
   ASSERT_GT(area.points.size(), 10000U);
-  for (const Index i : area.points) EXPECT_LT(test::place_of(surface, i).x(), .02);
+  for (const Index i : area.points) EXPECT_LT(place_of(surface, i).x(), .02);
 }
 
 TEST(Region, IsEmptyWhereItsPointIsHidden) {

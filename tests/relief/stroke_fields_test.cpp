@@ -1,36 +1,13 @@
 #include "relief/stroke_fields.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "core/height_span.h"
-#include "relievo/relief/frame.h"
 #include "relievo/relief/weights.h"
-#include "support/shapes.h"
-#include "support/surfaces.h"
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {
 
-using test::place_of;
-using test::surface_of;
-using test::waves;
-
-Stroke dab(Brush brush, const Vec3& at, double radius = .3, double amount = 1) {
-  return {.name = {}, .brush = brush, .amount = amount, .radius = radius, .points = {at}};
-}
-
-template <typename Real = double>
-std::vector<Real> applied(const Surface& surface, const Strokes& strokes, std::vector<Real> z,
-                          double height = 1) {
-  StrokeFields<Real> fields(surface);
-  fields.take(strokes);
-  fields.apply(height, {}, std::span<Real>(z));
-  return z;
-}
+using test::applied, test::dab, test::painted, test::place_of, test::surface_of, test::waves;
 
 double profile(double distance, double radius) {
   const double x = distance / radius;
@@ -41,11 +18,9 @@ TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   Stroke stroke = dab(Brush::raise, {-.4, .1, 0}, .25);
   stroke.points.emplace_back(.4, .1, 0);
-  const StrokeMask mask = stroke_mask(surface, stroke);
-  std::vector<float> weights(surface.points.size(), 0);
-  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  const std::vector<float> weights = test::weights_of(surface, stroke);
   for (Index i = 0; i < weights.size(); ++i) {
-    const Vec3 p = test::place_of(surface, i);
+    const Vec3 p = place_of(surface, i);
     const double beyond = std::max(0.0, std::abs(p.x()) - .4);
     EXPECT_NEAR(weights[i], profile(std::hypot(beyond, p.y() - .1), .25), 1e-6) << p.transpose();
   }
@@ -53,11 +28,9 @@ TEST(StrokeMask, FadesWithTheDistanceFromTheLine) {
 
 TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
-  Stroke stroke{.name = {}, .brush = Brush::raise, .radius = .07};
+  Stroke stroke{.brush = Brush::raise, .radius = .07};
   for (int i = 0; i < 45; ++i) stroke.points.emplace_back(-.8 + .035 * i, .6 * std::sin(.9 * i), 0);
-  std::vector<float> weights(surface.points.size(), 0);
-  const StrokeMask mask = stroke_mask(surface, stroke);
-  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  const std::vector<float> weights = test::weights_of(surface, stroke);
   const auto nearest = [&](const Vec3& p) {  // distance from the line, which is sampled every 1/500
     double least = 9;
     for (std::size_t i = 1; i < stroke.points.size(); ++i)
@@ -67,7 +40,7 @@ TEST(StrokeMask, IsThatOfTheNearestOfManyCorners) {
     return least;
   };
   for (Index i = 0; i < weights.size(); i += 37)
-    EXPECT_NEAR(weights[i], profile(nearest(test::place_of(surface, i)), .07), .003);
+    EXPECT_NEAR(weights[i], profile(nearest(place_of(surface, i)), .07), .003);
 }
 
 TEST(StrokeMask, IsFullInsideAHardStroke) {
@@ -76,9 +49,7 @@ TEST(StrokeMask, IsFullInsideAHardStroke) {
   stroke.softness = .25;
   const StrokeMask mask = stroke_mask(surface, stroke);
   for (std::size_t k = 0; k < mask.points.size(); ++k)
-    if (test::place_of(surface, mask.points[k]).norm() < .29) {
-      EXPECT_FLOAT_EQ(mask.weights[k], 1);
-    }
+    if (place_of(surface, mask.points[k]).norm() < .29) EXPECT_FLOAT_EQ(mask.weights[k], 1);
   EXPECT_GT(mask.points.size(), 20000 * std::numbers::pi * .16 / 4 * .95);
 }
 
@@ -89,31 +60,28 @@ TEST(StrokeMask, BelongsToTheModelInEveryView) {
     const Mat3 turn = (Eigen::AngleAxisd(turn_deg.x() / 57.3, Vec3::UnitY()) *
                        Eigen::AngleAxisd(turn_deg.y() / 57.3, Vec3::UnitX()))
                           .toRotationMatrix();
-    View view;
-    view.R_view_model = turn;
+    View view{.R_view_model = turn};
     const Surface surface = surface_of(ball, view);
     const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, at));
     ASSERT_GT(mask.points.size(), 400U);
     for (std::size_t k = 0; k < mask.points.size(); ++k)
-      EXPECT_NEAR(mask.weights[k], profile((test::place_of(surface, mask.points[k]) - at).norm(), .3), .01);
+      EXPECT_NEAR(mask.weights[k], profile((place_of(surface, mask.points[k]) - at).norm(), .3), .01);
   }
 }
 
 TEST(StrokeMask, IsEmptyWhereTheViewShowsNothingOfTheLine) {
   const Surface front = surface_of(test::sphere(20000, 1));
   EXPECT_TRUE(stroke_mask(front, dab(Brush::raise, {0, 0, -1})).points.empty());
-  EXPECT_TRUE(stroke_mask(front, Stroke{.name = {}, .radius = 1}).points.empty());
+  EXPECT_TRUE(stroke_mask(front, Stroke{.radius = 1}).points.empty());
 }
 
 TEST(StrokeMask, DoesNotReachAcrossADepthJump) {
   // The right half of the square lies 0.25 behind the left half. Points of both halves are within the radius
   // of 0.5, but the stroke must stay on the nearer half.
-  Cloud cloud = test::height_field(
-      40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; }, [](double, double) { return Vec2(0, 0); });
-  const Surface surface = surface_of(cloud);
+  const Surface surface = test::step(.25);
   const StrokeMask mask = stroke_mask(surface, dab(Brush::raise, {-.1, 0, .25}, .5));
   ASSERT_GT(mask.points.size(), 1000U);
-  for (const Index i : mask.points) EXPECT_LT(test::place_of(surface, i).x(), .02);
+  for (const Index i : mask.points) EXPECT_LT(place_of(surface, i).x(), .02);
 }
 
 TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
@@ -122,7 +90,7 @@ TEST(StrokeFields, RaiseAndSinkByAShareOfTheHeight) {
   const auto changed = applied(
       surface, {dab(Brush::raise, {.3, .3, 0}, .2, .1), dab(Brush::sink, {-.4, -.4, 0}, .3, .05)}, z, 2);
   for (Index i = 0; i < z.size(); ++i) {
-    const Vec3 p = test::place_of(surface, i);
+    const Vec3 p = place_of(surface, i);
     EXPECT_NEAR(changed[i],
                 .5 + .2 * profile((p - Vec3(.3, .3, 0)).norm(), .2) -
                     .1 * profile((p - Vec3(-.4, -.4, 0)).norm(), .3),
@@ -137,13 +105,10 @@ TEST(StrokeFields, KeepEveryHeightOutside) {
   const Vec3 at(.2, .1, std::sqrt(1 - .05));
   for (const auto& [word, brush] : brushes) {
     if (brush == Brush::in_front) continue;  // this brush needs a depth jump; another test covers it
-    std::vector<double> uncorrected(z.size(), .05), changed = z;
-    StrokeFields<double> fields(surface);
-    fields.take({dab(brush, at)});
-    fields.apply(.2, uncorrected, changed);
+    const auto changed = applied(surface, {dab(brush, at)}, z, .2, std::vector<double>(z.size(), .05));
     double most = 0;
     for (Index i = 0; i < z.size(); ++i) {
-      const bool is_inside = (test::place_of(surface, i) - at).norm() < .3;
+      const bool is_inside = (place_of(surface, i) - at).norm() < .3;
       EXPECT_TRUE(is_inside || changed[i] == z[i]) << word;
       most = std::max(most, std::abs(changed[i] - z[i]));
     }
@@ -159,10 +124,8 @@ TEST(StrokeFields, LevelToTheMean) {
   stroke.softness = .05;
   const auto changed = applied(surface, {stroke}, z);
   for (Index i = 0; i < z.size(); ++i) {
-    const double distance = (test::place_of(surface, i) - Vec3(.2, 0, 0)).norm();
-    if (distance < .37) {
-      EXPECT_NEAR(changed[i], 1.06, .002);
-    }
+    const double distance = (place_of(surface, i) - Vec3(.2, 0, 0)).norm();
+    if (distance < .37) EXPECT_NEAR(changed[i], 1.06, .002);
   }
 }
 
@@ -236,9 +199,7 @@ TEST(StrokeFields, SubtractNoMoreThanThereIsWhereTheyOverlap) {
   soft.softness = .05;
   const auto once = applied(surface, {soft}, z), thrice = applied(surface, {soft, soft, soft}, z);
   for (Index i = 0; i < z.size(); ++i)
-    if (surface.points[i].head<2>().norm() < .47) {
-      EXPECT_NEAR(thrice[i], once[i], 1e-12);
-    }
+    if (surface.points[i].head<2>().norm() < .47) EXPECT_NEAR(thrice[i], once[i], 1e-12);
 }
 
 // A stroke grows step by step, beside strokes that do not change. The effect must always be the same as if
@@ -279,19 +240,6 @@ TEST(StrokeFields, AgreeInBothPrecisions) {
   for (std::size_t i = 0; i < z.size(); ++i) EXPECT_NEAR(quick[i], exact[i], 1e-6);
 }
 
-// Returns the layered shape with the given strokes.
-Shape painted(const Strokes& strokes) {
-  Shape shape = layered_shape();
-  shape.strokes.list = std::make_shared<const Strokes>(strokes);
-  return shape;
-}
-
-FrameOptions options_of(const Shape& shape) {
-  FrameOptions options;
-  options.shape = shape;
-  return options;
-}
-
 const Strokes beside_the_top{dab(Brush::sharpen, {-.2, .2, -1.117}, .2),
                              dab(Brush::sink, {-.5, .4, -.997}, .2, .2)};
 
@@ -306,9 +254,7 @@ TEST(StrokesOfReliefs, MoveNothingElseAndKeepTheHeight) {
     for (const Index i : stroke_mask(model.surface(), stroke).points) is_painted[i] = 1;
   std::size_t moved = 0;
   for (std::size_t i = 0; i < plain.heights.size(); ++i) {
-    if (!is_painted[i]) {
-      EXPECT_NEAR(changed.heights[i], plain.heights[i], 1e-12);
-    }
+    if (!is_painted[i]) EXPECT_NEAR(changed.heights[i], plain.heights[i], 1e-12);
     moved += is_painted[i] && std::abs(changed.heights[i] - plain.heights[i]) > 1e-4;
   }
   EXPECT_GT(moved, 100U);
@@ -327,15 +273,13 @@ TEST(StrokesOfReliefs, AreThoseOfFrames) {
   const Relief relief = model.make(painted(beside_the_top));
   FrameMaker frames(model);
   Frame frame;
-  frames.make(options_of(painted(beside_the_top)), frame);
+  frames.make({painted(beside_the_top)}, frame);
   EXPECT_NEAR(frame.height, relief.height, 1e-4 * relief.height);
   for (std::size_t i = 0; i < relief.heights.size(); ++i)
     EXPECT_NEAR(frame.heights[i], relief.heights[i], 2e-3 * relief.height);
   // After the strokes are removed, the frame must be that of a model that never had strokes.
-  frames.make(options_of(layered_shape()), frame);
-  Frame plain;
-  FrameMaker(model).make(options_of(layered_shape()), plain);
-  EXPECT_EQ(frame.heights, plain.heights);
+  frames.make({}, frame);
+  EXPECT_EQ(frame.heights, test::frame_of(model, {}).heights);
 }
 
 }  // namespace

@@ -1,25 +1,16 @@
 #include "relief/stroke_moves.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/QR>
-#include <algorithm>
-#include <cmath>
 
-#include "relief/stroke_fields.h"
-#include "relievo/relief/frame.h"
-#include "support/shapes.h"
-#include "support/surfaces.h"
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {
 
-using test::place_of;
-using test::surface_of;
-using test::waves;
+using test::applied, test::painted, test::place_of, test::surface_of, test::waves;
 
-Stroke dab(const Vec3& at, double radius, double amount = 1) {
-  return {.name = {}, .brush = Brush::protect, .amount = amount, .radius = radius, .points = {at}};
+Stroke protecting(const Vec3& at, double radius, double amount = 1) {
+  return test::dab(Brush::protect, at, radius, amount);
 }
 
 // Heights with waves, and the same heights after a smooth correction that is not linear.
@@ -38,23 +29,19 @@ Corrected corrected_waves(const Surface& surface) {
 
 std::vector<double> protect(const Surface& surface, const Stroke& stroke, const Corrected& heights,
                             double height) {
-  std::vector<double> z = heights.after;
-  StrokeFields<double> fields(surface);
-  fields.take({stroke});
-  fields.apply(height, heights.before, std::span<double>(z));
-  return z;
+  return applied(surface, {stroke}, heights.after, height, heights.before);
 }
 
 // Under a protected stroke, the heights may differ from the heights before the correction only by a linear function.
 TEST(StrokeMoves, ProtectShapesFromTheCorrection) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
-  Stroke stroke = dab({.1, .2, 0}, .4);
+  Stroke stroke = protecting({.1, .2, 0}, .4);
   stroke.softness = .25;
   const std::vector<double> z = protect(surface, stroke, heights, 9);
   std::vector<Index> inside;
   for (Index i = 0; i < z.size(); ++i)
-    if ((test::place_of(surface, i) - Vec3(.1, .2, 0)).norm() < .29) inside.push_back(i);
+    if ((place_of(surface, i) - Vec3(.1, .2, 0)).norm() < .29) inside.push_back(i);
   Eigen::MatrixXd terms(inside.size(), 3);
   Eigen::VectorXd moved(inside.size());
   for (std::size_t k = 0; k < inside.size(); ++k) {
@@ -79,40 +66,29 @@ TEST(StrokeMoves, ProtectWithinTheHeight) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
   const double height = *std::ranges::max_element(heights.after);
-  const std::vector<double> z = protect(surface, dab({-.3, .2, 0}, .5), heights, height);
+  const std::vector<double> z = protect(surface, protecting({-.3, .2, 0}, .5), heights, height);
   EXPECT_LE(*std::ranges::max_element(z), height + 1e-12);
 }
 
 TEST(StrokeMoves, ProtectByTheirAmount) {
   const Surface surface = surface_of(test::sheet(20000, 1, 0));
   const Corrected heights = corrected_waves(surface);
-  const auto half = protect(surface, dab({.1, .2, 0}, .4, .5), heights, 9),
-             whole = protect(surface, dab({.1, .2, 0}, .4, 1), heights, 9);
+  const auto half = protect(surface, protecting({.1, .2, 0}, .4, .5), heights, 9),
+             whole = protect(surface, protecting({.1, .2, 0}, .4, 1), heights, 9);
   for (std::size_t i = 0; i < half.size(); ++i)
     EXPECT_NEAR(half[i] - heights.after[i], (whole[i] - heights.after[i]) / 2, 1e-12);
   EXPECT_NE(half, whole);
 }
 
-std::vector<double> in_front(const Surface& surface, const Stroke& stroke, std::vector<double> z) {
-  StrokeFields<double> fields(surface);
-  fields.take({stroke});
-  fields.apply(1, {}, std::span<double>(z));
-  return z;
-}
-
 TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
   // The left half of the square is in front of the right half, but in the relief it is hardly higher.
-  const Surface surface = surface_of(test::height_field(
-      40000, 1, [](double x, double) { return x < 0 ? .25 : 0.; },
-      [](double, double) { return Vec2(0, 0); }));
+  const Surface surface = test::step(.25);
   std::vector<double> z;
   for (const Vec3& p : surface.points) z.push_back(.4 + .02 * std::sin(9 * p.y()) + (p.x() < 0 ? .03 : 0.));
-  Stroke stroke{.name = {}, .brush = Brush::in_front, .amount = .2, .radius = .3};
-  stroke.points = {{-.05, -.3, .25}, {-.05, .3, .25}};
-  const std::vector<double> changed = in_front(surface, stroke, z);
-  const StrokeMask mask = stroke_mask(surface, stroke);
-  std::vector<float> weights(z.size(), 0);
-  for (std::size_t k = 0; k < mask.points.size(); ++k) weights[mask.points[k]] = mask.weights[k];
+  Stroke stroke{
+      .brush = Brush::in_front, .amount = .2, .radius = .3, .points = {{-.05, -.3, .25}, {-.05, .3, .25}}};
+  const std::vector<double> changed = applied(surface, {stroke}, z);
+  const std::vector<float> weights = test::weights_of(surface, stroke);
   double least = 1;
   std::size_t pairs = 0;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
@@ -130,21 +106,15 @@ TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
   }
   for (Index i = 0; i < z.size(); ++i)
     if (surface.points[i].z() > 0) z[i] += .5;
-  EXPECT_EQ(in_front(surface, stroke, z), z);  // parts that are already in front stay
-}
-
-Shape painted(const Stroke& stroke) {
-  Shape shape = layered_shape();
-  shape.strokes.list = std::make_shared<const Strokes>(Strokes{stroke});
-  return shape;
+  EXPECT_EQ(applied(surface, {stroke}, z), z);  // what is in front already stays
 }
 
 // A stroke that takes back a part of the correction must not change anything outside of the stroke.
 TEST(StrokeMoves, ProtectNothingElse) {
   const ReliefModel model = test::prepared(test::bumps_behind_a_ring(10000));
-  Stroke stroke = dab({-.2, .2, -1.117}, .3);
+  Stroke stroke = protecting({-.2, .2, -1.117}, .3);
   const Relief plain = value_of(model.make_at_height(.2, layered_shape(), 1)),
-               changed = value_of(model.make_at_height(.2, painted(stroke), 1));
+               changed = value_of(model.make_at_height(.2, painted({stroke}), 1));
   std::vector<std::uint8_t> is_painted(plain.heights.size(), 0);
   for (const Index i : stroke_mask(model.surface(), stroke).points) is_painted[i] = 1;
   double most = 0;
@@ -154,17 +124,11 @@ TEST(StrokeMoves, ProtectNothingElse) {
     most = std::max(most, moved);
   }
   EXPECT_GT(most, .01 * .2);
-  FrameMaker frames(model);
-  Frame frame;
-  FrameOptions options;
-  options.shape = painted(stroke);
-  options.height = .2;
-  options.height_tolerance = 1e-5;
-  frames.make(options, frame);
+  const Frame frame = test::frame_of(model, {painted({stroke}), .2, 1e-5});
   for (std::size_t i = 0; i < plain.heights.size(); ++i)
     EXPECT_NEAR(frame.heights[i], changed.heights[i], 2e-3 * .2);
   stroke.is_muted = true;
-  EXPECT_EQ(value_of(model.make_at_height(.2, painted(stroke), 1)).heights, plain.heights);
+  EXPECT_EQ(value_of(model.make_at_height(.2, painted({stroke}), 1)).heights, plain.heights);
 }
 
 }  // namespace

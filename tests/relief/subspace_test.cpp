@@ -1,14 +1,7 @@
 #include "relievo/relief/subspace.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <numbers>
-
 #include "relief/subspace/control_mesh.h"
 #include "relievo/io/read.h"
-#include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
 #include "support/differences.h"
 #include "support/same_bits.h"
@@ -112,9 +105,8 @@ TEST(Subspace, IsCloseToTheExactReliefOfASphere) {
 // (see SubspaceModel). So the relief must be nearly exact.
 TEST(Subspace, IsTheExactReliefWhereAllPointsAreControlPoints) {
   const Surface surface = surface_of(test::sphere(10000, 1));
-  SubspaceOptions options;
+  SubspaceOptions options{.normals_per_point = 1};
   options.control.count = surface.points.size();
-  options.normals_per_point = 1;
   const SubspaceModel model = SubspaceModel::prepare(surface, options).value();
   EXPECT_LT(worst_error(surface, model), .003);
 }

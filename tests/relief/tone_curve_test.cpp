@@ -1,12 +1,10 @@
 #include "relievo/relief/tone_curve.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <algorithm>
 
 #include "relief/weight_table.h"
-#include "relievo/core/text.h"
 #include "relievo/relief/weights.h"
 #include "support/results.h"
 

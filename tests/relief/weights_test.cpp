@@ -69,9 +69,7 @@ TEST(Saturation, IsEquationSixWithoutItsHeight) {
         const double factor =
             curvature_weight(k, .25, saturation_alone(compression)) * saturation_scale(compression);
         EXPECT_NEAR(factor, printed(k, .25, 1, beta) / (1 - std::exp(-1)), 1e-12) << u << ' ' << beta;
-        if (beta == 0 || k == .25) {
-          EXPECT_NEAR(factor, 1, 1e-12);
-        }
+        if (beta == 0 || k == .25) EXPECT_NEAR(factor, 1, 1e-12);
       }
 }
 

@@ -1,17 +1,11 @@
 #include "relievo/samples/sample.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "relievo/core/parallel.h"
 #include "samples/sample_shapes.h"
 #include "support/results.h"
 #include "support/same_bits.h"

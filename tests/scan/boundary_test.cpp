@@ -1,9 +1,5 @@
 #include "relievo/scan/boundary.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "relievo/scan/spacing.h"
 #include "support/shapes.h"
 #include "support/triangles.h"

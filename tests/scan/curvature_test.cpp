@@ -1,9 +1,5 @@
 #include "relievo/scan/curvature.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
 #include <numeric>
 
 #include "support/results.h"
@@ -34,104 +30,83 @@ Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const C
   return {sum / n, std::sqrt(std::max(0.0, sum_sq / n - sum * sum / n / n))};
 }
 
+// Expects that errors are small: their mean, and their standard deviation.
+void expect_small(const Statistics& errors, double mean, double deviation) {
+  EXPECT_NEAR(errors.mean, 0, mean);
+  EXPECT_LT(errors.deviation, deviation);
+}
+
 constexpr CurvatureOptions usual{2.5};
 
 constexpr auto everywhere = [](const Vec3&) { return true; };
 
+auto always(double curvature) {
+  return [=](const Vec3&) { return curvature; };
+}
+
+// Returns the curvature at a point of a torus with the radii 3 and 1.
+double of_torus(const Vec3& p) {
+  const double cos_v = p.head<2>().norm() - 3;
+  return (3 + 2 * cos_v) / (2 * (3 + cos_v));
+}
+
+Cloud saddle() {
+  return test::height_field(
+      20000, 1, [](double x, double y) { return .5 * (x * x - y * y); },
+      [](double x, double y) { return Vec2(x, -y); });
+}
+
+bool is_in_the_middle(const Vec3& p) {
+  return p.head<2>().norm() < .1;
+}
+
+// Returns the cloud with noise of half its spacing.
+Cloud noisy(const Cloud& clean) {
+  return test::noisy(clean, .5 * measure_spacing(clean).rho, .05);
+}
+
 TEST(Curvature, OfASphereIsOneOverItsRadius) {
-  for (const double radius : {1.0, 250.0}) {
-    const Statistics e = errors(
-        test::sphere(20000, radius), [&](const Vec3&) { return 1 / radius; }, everywhere, usual);
-    EXPECT_NEAR(e.mean * radius, 0, .01);
-    EXPECT_LT(e.deviation * radius, .02);
-  }
+  for (const double radius : {1.0, 250.0})
+    expect_small(errors(test::sphere(20000, radius), always(1 / radius), everywhere, usual), .01 / radius,
+                 .02 / radius);
 }
 
 TEST(Curvature, OfASphereSeenFromInsideIsNegative) {
-  const Statistics e = errors(
-      test::inside_out(test::sphere(20000, 1)), [](const Vec3&) { return -1.0; }, everywhere, usual);
-  EXPECT_NEAR(e.mean, 0, .01);
+  const Cloud inside = test::inside_out(test::sphere(20000, 1));
+  EXPECT_NEAR(errors(inside, always(-1), everywhere, usual).mean, 0, .01);
 }
 
 TEST(Curvature, OfACylinderIsHalfOfThat) {
-  const Statistics e = errors(
-      test::cylinder(20000, 2, 10), [](const Vec3&) { return .25; },
-      [](const Vec3& p) { return std::abs(p.y()) < 4; }, usual);
-  EXPECT_NEAR(e.mean / .25, 0, .01);
-  EXPECT_LT(e.deviation / .25, .03);
+  const auto is_far_from_its_ends = [](const Vec3& p) { return std::abs(p.y()) < 4; };
+  expect_small(errors(test::cylinder(20000, 2, 10), always(.25), is_far_from_its_ends, usual), .0025, .0075);
 }
 
 TEST(Curvature, OfATorus) {
-  const double R = 3, r = 1;
-  const auto truth = [&](const Vec3& p) {
-    const double cos_v = (p.head<2>().norm() - R) / r;
-    return (R + 2 * r * cos_v) / (2 * r * (R + r * cos_v));
-  };
-  const Statistics e = errors(test::torus(60000, R, r), truth, everywhere, usual);
-  EXPECT_NEAR(e.mean, 0, .005);
-  EXPECT_LT(e.deviation, .02);
+  expect_small(errors(test::torus(60000, 3, 1), of_torus, everywhere, usual), .005, .02);
 }
 
 TEST(Curvature, OfASaddleIsZeroInTheMiddle) {
-  const Cloud saddle = test::height_field(
-      20000, 1, [](double x, double y) { return .5 * (x * x - y * y); },
-      [](double x, double y) { return Vec2(x, -y); });
-  const Statistics e = errors(
-      saddle, [](const Vec3&) { return 0.0; }, [](const Vec3& p) { return p.head<2>().norm() < .1; }, usual);
-  EXPECT_NEAR(e.mean, 0, .01);
-  EXPECT_LT(e.deviation, .03);
+  expect_small(errors(saddle(), always(0), is_in_the_middle, usual), .01, .03);
 }
 
 TEST(Curvature, OfAPlaneIsZero) {
-  const Statistics e = errors(
-      test::sheet(5000, 1, 0), [](const Vec3&) { return 0.0; }, everywhere, usual);
-  EXPECT_NEAR(e.mean, 0, 1e-12);
-  EXPECT_LT(e.deviation, 1e-9);
+  expect_small(errors(test::sheet(5000, 1, 0), always(0), everywhere, usual), 1e-12, 1e-9);
 }
 
 TEST(Curvature, SurvivesNoiseOfHalfTheSpacing) {
-  const Cloud clean = test::sphere(40000, 1);
-  const double rho = measure_spacing(clean).rho;
-  const Statistics e = errors(
-      test::noisy(clean, .5 * rho, .05), [](const Vec3&) { return 1.0; },
-      [](const Vec3& p) { return p.z() > .7; }, {5});
-  EXPECT_NEAR(e.mean, 0, .05);
-  EXPECT_LT(e.deviation, .35);
-}
-
-TEST(Curvature, OfOtherShapesSurvivesThatNoiseToo) {
-  const auto noisy = [](const Cloud& clean) {
-    return test::noisy(clean, .5 * measure_spacing(clean).rho, .05);
-  };
   const CurvatureOptions wide{5};
-  const Statistics cylinder = errors(
-      noisy(test::cylinder(20000, 1, 8)), [](const Vec3&) { return .5; },
-      [](const Vec3& p) { return std::abs(p.y()) < 1; }, wide);
-  EXPECT_NEAR(cylinder.mean, 0, .05);
-  EXPECT_LT(cylinder.deviation, .15);
-  const auto truth = [](const Vec3& p) {
-    const double cos_v = p.head<2>().norm() - 3;
-    return (3 + 2 * cos_v) / (2 * (3 + cos_v));
-  };
-  const Statistics torus = errors(
-      noisy(test::torus(40000, 3, 1)), truth, [](const Vec3& p) { return p.x() > 3; }, wide);
-  EXPECT_NEAR(torus.mean, 0, .08);
-  EXPECT_LT(torus.deviation, .2);
-  const Statistics saddle = errors(
-      noisy(test::height_field(
-          20000, 1, [](double x, double y) { return .5 * (x * x - y * y); },
-          [](double x, double y) { return Vec2(x, -y); })),
-      [](const Vec3&) { return 0.0; }, [](const Vec3& p) { return p.head<2>().norm() < .1; }, wide);
-  EXPECT_NEAR(saddle.mean, 0, .1);
-  EXPECT_LT(saddle.deviation, .4);
+  const auto is_on_top = [](const Vec3& p) { return p.z() > .7; };
+  const auto is_far_from_its_ends = [](const Vec3& p) { return std::abs(p.y()) < 1; };
+  const auto is_at_the_right = [](const Vec3& p) { return p.x() > 3; };
+  expect_small(errors(noisy(test::sphere(40000, 1)), always(1), is_on_top, wide), .05, .35);
+  expect_small(errors(noisy(test::cylinder(20000, 1, 8)), always(.5), is_far_from_its_ends, wide), .05, .15);
+  expect_small(errors(noisy(test::torus(40000, 3, 1)), of_torus, is_at_the_right, wide), .08, .2);
+  expect_small(errors(noisy(saddle()), always(0), is_in_the_middle, wide), .1, .4);
 }
 
 TEST(Curvature, TakesAllNeighboursOfALargeScale) {
-  const Statistics e = errors(
-      test::sphere(40000, 1), [](const Vec3&) { return 1.0; }, [](const Vec3& p) { return p.z() > .95; },
-      {6});
-  EXPECT_NEAR(e.mean, 0, .05);
-  EXPECT_LT(e.deviation, .1);
+  const auto is_at_the_top = [](const Vec3& p) { return p.z() > .95; };
+  expect_small(errors(test::sphere(40000, 1), always(1), is_at_the_top, {6}), .05, .1);
 }
 
 TEST(Curvature, OfTheOtherSideOfAThinWallDoesNotCount) {

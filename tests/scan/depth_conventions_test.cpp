@@ -1,7 +1,5 @@
 // Tests depth images in the conventions of different programs. The conventions differ in how depths are
 // stored, in the value that marks missing depths, and in the background behind the figure.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -104,9 +102,7 @@ double share_used(const DepthCloud& made) {
 }
 
 DepthOptions as(DepthValues kind) {
-  DepthOptions options;
-  options.values = kind;
-  return options;
+  return {.values = kind};
 }
 
 double depth_range(const Cloud& cloud) {
@@ -121,9 +117,7 @@ TEST(DepthConventions, TheFigureIsWholeWhateverIsBehindIt) {
         SCOPED_TRACE(testing::Message() << how.name << ", wall " << wall << ", missing " << missing);
         const auto made = value_of(depth_cloud(picture(how, wall, missing), as(how.kind)));
         EXPECT_GE(share_used(made), .98);
-        if (how.kind == DepthValues::depth) {
-          EXPECT_NEAR(depth_range(made.cloud), .5 * side, .03 * side);
-        }
+        if (how.kind == DepthValues::depth) EXPECT_NEAR(depth_range(made.cloud), .5 * side, .03 * side);
       }
 }
 
@@ -168,8 +162,7 @@ TEST(DepthConventions, TeethHaveTheUseOfBlur) {
   for (int r = 20; r < 90; ++r)
     for (int c = 0; c < 120; ++c) image.values.at(c, r) = 1000.F + 10.F * static_cast<float>(c / 4);
   for (int r = 12; r < 20; ++r) image.values.at(61, r) = 1150;
-  DepthOptions options;
-  options.camera = DepthCamera{100, 100, 59.5, 44.5};
+  DepthOptions options{.camera = DepthCamera{100, 100, 59.5, 44.5}};
   const auto made = value_of(depth_cloud(image, options));
   EXPECT_EQ(made.blur, 8U);
   EXPECT_EQ(made.uses.at(61, 15), PixelUse::blur);
@@ -220,8 +213,7 @@ TEST(DepthConventions, WithoutAJumpNothingIsBackground) {
 
 TEST(DepthConventions, BackgroundIsKeptIfAskedAndInHeightsUnlessAsked) {
   const Convention metres = conventions().front();
-  DepthOptions options;
-  options.background = Removal::keep;
+  DepthOptions options{.background = Removal::keep};
   EXPECT_EQ(value_of(depth_cloud(picture(metres, 1, 0), options)).background, 0U);
   options.background = Removal::automatic;
   options.camera = DepthCamera{220, 220, 100, 100};
@@ -237,8 +229,7 @@ TEST(DepthConventions, BackgroundIsKeptIfAskedAndInHeightsUnlessAsked) {
 TEST(DepthConventions, FarDepthsAreTakenOutIfAsked) {
   const Convention metres = conventions().front();
   const auto column = [](int c, int r) { return c > 80 && c < 110 && r > 40 ? 2 + .001 * c : 4 - .0001 * r; };
-  DepthOptions options;
-  options.background = Removal::drop;
+  DepthOptions options{.background = Removal::drop};
   const auto made = value_of(depth_cloud(picture(metres, nothing, 0, column), options));
   EXPECT_EQ(made.cloud.size(), 29U * 159U);
 }
@@ -276,9 +267,7 @@ TEST(DepthConventions, BlurIsTakenOutAsFarAsAsked) {
     const auto kept = value_of(depth_cloud(blurred_disc(blur), options));
     EXPECT_LT(points_between(wide.cloud), 40U);
     EXPECT_GT(wide.blur, 200U);
-    if (blur < 2) {
-      EXPECT_LT(points_between(narrow.cloud), 40U);
-    }
+    if (blur < 2) EXPECT_LT(points_between(narrow.cloud), 40U);
     EXPECT_EQ(kept.blur, 0U);
     EXPECT_EQ(kept.cloud.size(), static_cast<std::size_t>(side * side));
   }

@@ -1,11 +1,6 @@
 #include "relievo/scan/depth_image.h"
 #include "relievo/io/read.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
 #include "support/results.h"
@@ -82,10 +77,7 @@ Errors errors_of(const Cloud& cloud, double scale) {
 }
 
 DepthOptions as_heights() {
-  DepthOptions options;
-  options.values = DepthValues::height;
-  options.background = Removal::keep;
-  return options;
+  return {.values = DepthValues::height, .background = Removal::keep};
 }
 
 TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
@@ -156,8 +148,7 @@ TEST(DepthCloud, AWallThatACameraSeesAskewIsAPlane) {
   const auto ray = [&](double c, double r) {
     return Vec3((c - camera.cx) / camera.fx, (r - camera.cy) / camera.fy, 1);
   };
-  DepthOptions options;
-  options.camera = camera;
+  DepthOptions options{.camera = camera};
   const auto made = depth_cloud(image_of([&](int c, int r) { return 1500 / n.dot(ray(c, r)); }, 0), options);
   ASSERT_TRUE(made) << made.error().message();
   for (std::size_t k = 0; k < made->cloud.size(); k += 31) {
@@ -176,9 +167,7 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
     const double x = (c - 120) / 60.0, y = (r - 90) / 60.0, d = 1 - x * x - y * y;
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);
   };
-  DepthOptions options;
-  options.background = Removal::keep;
-  options.camera = DepthCamera{264, 264, 119.5, 89.5};
+  DepthOptions options{.camera = DepthCamera{264, 264, 119.5, 89.5}, .background = Removal::keep};
   const auto by_depth = depth_cloud(image_of(depth, 0), options);
   options.camera.reset();
   options.values = DepthValues::inverse;  // the default camera has the same focal length, 1.1 times 240
@@ -209,8 +198,7 @@ TEST(DepthCloud, LargeImagesAreReduced) {
 }
 
 TEST(DepthCloud, RefusesWhatItCannotUse) {
-  DepthOptions options;
-  options.range = 0;
+  DepthOptions options{.range = 0};
   EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "depth-range");
   EXPECT_EQ(depth_cloud(image_of([](int, int) { return 0; }, 1), {}).error().kind, ErrorKind::geometry);
   Cancelled progress;
@@ -222,8 +210,7 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
 TEST(DepthCloud, OfAHollowBecomesARelief) {
   const auto hollow = depth_cloud(image_of([](int c, int r) { return 1 - hills(c, r); }, 0), as_heights());
   ASSERT_TRUE(hollow);
-  ReliefOptions options;
-  options.height_mm = 2;
+  ReliefOptions options{{.height_mm = 2}};
   const auto made = value_of(make_relief(hollow->cloud, options));
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_GT(made.report.visible_points, .95 * width * height);
@@ -236,9 +223,7 @@ TEST(DepthCloud, MakesSolidsThatDoNotCutThemselves) {
   for (int i = 0; i < 48 * 36; ++i)
     image.values.pixels.push_back(static_cast<float>(1 - hills(5 * (i % 48), 5 * (i / 48))));
   const ReliefModel model = value_of(prepare(value_of(depth_cloud(image, as_heights())).cloud, View{}));
-  ReliefOptions options;
-  options.height_mm = 2;
-  options.resolution_mm = 2;
+  ReliefOptions options{{.height_mm = 2, .resolution_mm = 2}};
   using Limit = std::optional<double>;
   for (const Outline outline : {Outline::rectangle, Outline::none})
     for (const auto& [tolerance, triangles] :

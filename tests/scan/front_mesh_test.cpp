@@ -1,10 +1,5 @@
 #include "scan/front_mesh.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numbers>
-
 #include "support/shapes.h"
 #include "support/triangles.h"
 

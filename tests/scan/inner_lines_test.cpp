@@ -1,9 +1,5 @@
 #include "scan/outlines/inner_lines.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/surfaces.h"
 
 namespace relievo {

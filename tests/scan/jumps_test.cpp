@@ -1,9 +1,5 @@
 #include "scan/jumps.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -28,9 +24,7 @@ TEST(Jumps, AreWhereTheNearerSheetEnds) {
   EXPECT_GT(std::ranges::count(jumps, 1), 100);
   for (std::size_t t = 0; t < jumps.size(); ++t)
     for (const Index p : surface.triangulation.triangles[t])
-      if (jumps[t]) {
-        EXPECT_LT(distance_to_jump(surface.points[p]), 5 * surface.rho);
-      }
+      if (jumps[t]) EXPECT_LT(distance_to_jump(surface.points[p]), 5 * surface.rho);
 }
 
 TEST(Jumps, OfASmoothSurfaceAreNone) {

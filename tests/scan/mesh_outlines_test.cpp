@@ -1,13 +1,6 @@
 // Compares the outlines of meshes with closed forms of the shapes.
 #include "scan/outlines/mesh_outlines.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include "relievo/scan/mesh.h"
 #include "relievo/scan/surface.h"
 #include "support/mesh_shapes.h"
 #include "support/shapes.h"
@@ -153,9 +146,7 @@ TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
   double silhouette = 0, jump = 0;
   for (const OutlineSegment& s : seen_outlines(mesh.points, mesh.triangles, .01)) {
     (s.is_jump ? jump : silhouette) += (s.to - s.from).norm();
-    if (s.is_jump) {
-      EXPECT_EQ(s.from.x(), 1);
-    }
+    if (s.is_jump) EXPECT_EQ(s.from.x(), 1);
   }
   EXPECT_NEAR(silhouette, 3 * 2 + 1 + 2 * 1 + 1, .03);
   EXPECT_NEAR(jump, 1, .02);

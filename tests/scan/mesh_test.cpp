@@ -1,10 +1,7 @@
 #include "relievo/scan/mesh.h"
 #include "relievo/scan/scan_file.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "support/mesh_shapes.h"
@@ -67,9 +64,7 @@ TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const bool is_inside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() < .499;
     const bool is_outside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() > .501;
-    if (is_inside || is_outside) {
-      EXPECT_NEAR(cloud.points[i].z(), is_inside ? 1 : 0, 1e-6);
-    }
+    if (is_inside || is_outside) EXPECT_NEAR(cloud.points[i].z(), is_inside ? 1 : 0, 1e-6);
     near += is_inside;
     EXPECT_GT(cloud.normals[i].z(), .99F);
   }
@@ -156,9 +151,7 @@ TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
   CloudFile file;
   file.mesh = test::sphere_mesh(1, 24);  // its own points are 0.26 apart, too far for a good relief
   file.cloud.points = file.mesh.points;
-  ReliefOptions options;
-  options.height_mm = 5;
-  options.points = 20000;
+  ReliefOptions options{{.height_mm = 5, .points = 20000}};
   const auto made = value_of(make_relief(file, options));
   EXPECT_EQ(check_solid(made.solid), "");
   EXPECT_NEAR(made.report.height_mm, 5, .01);

@@ -1,10 +1,5 @@
 #include "scan/noise/noise.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
 #include "core/angle.h"
 #include "core/lists.h"
 #include "relievo/scan/normals.h"
@@ -148,8 +143,7 @@ TEST(RemoveNoise, IsNotMisledByOutliers) {
 TEST(SurfaceNoise, IsRemovedAsMuchAsMeasuredOrAsked) {
   const Cloud noisy = with_noise(test::sphere(20000, 1), .5).cloud;
   const auto surface_with = [&](std::optional<double> denoise) {
-    View view;
-    view.denoise = denoise;
+    View view{.denoise = denoise};
     return *find_surface(noisy, view);
   };
   const Surface measured = surface_with(std::nullopt), kept = surface_with(0), asked = surface_with(.8);
@@ -169,8 +163,7 @@ TEST(SurfaceNoise, IsRemovedAsMuchAsMeasuredOrAsked) {
 
 TEST(SurfaceNoise, LeavesACleanScanAsItIs) {
   const Cloud clean = test::torus(20000, 2, .5);
-  View kept;
-  kept.denoise = 0;
+  View kept{.denoise = 0};
   const Surface by_itself = *find_surface(clean, View{}), untouched = *find_surface(clean, kept);
   EXPECT_EQ(by_itself.points, untouched.points);
   EXPECT_EQ(by_itself.normals, untouched.normals);

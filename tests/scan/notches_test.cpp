@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "support/shapes.h"
 
 namespace relievo {
@@ -57,8 +54,7 @@ TEST(Notches, BetweenTwoSurfacesAreOpenAsFarAsPointsShow) {
 TEST(Notches, AreClosedUpToTheViewsGap) {
   double before = 0;
   for (const double gap : {2.4, 3.5, 5.0}) {
-    View view;
-    view.gap = gap;
+    View view{.gap = gap};
     const Surface surface = *find_surface(lips(40000, 0), view);
     const double width = 2 * half_opening * end_of_notch(surface) / surface.rho;
     EXPECT_GT(width, before + .3) << gap;

@@ -1,10 +1,6 @@
 // Compares outlines of clouds with closed forms. The shapes have sharp corners, a hole, or noise.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
@@ -125,8 +121,7 @@ TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
   const double rho = measure_spacing(clean).rho;
   const Cloud noisy = test::without_normals(test::noisy(clean, .5 * rho, 0));
   const auto off_the_circle = [](const Vec2& p) { return p.norm() - 1.15; };
-  View kept;
-  kept.denoise = 0;
+  View kept{.denoise = 0};
   const Deviation with_noise = deviation(outline_of(noisy, kept), off_the_circle);
   const Deviation without = deviation(outline_of(noisy, View{}), off_the_circle);
   EXPECT_GT(with_noise.mean, .4);

@@ -1,10 +1,5 @@
 #include "scan/outlines/outlines.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "scan/outlines/outline_points.h"
 #include "support/surfaces.h"
 
@@ -183,8 +178,7 @@ TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
   const double rho = surface_of(button).rho;
   const Cloud crumb = test::sphere(200, .03);  // has 0.07 % of the button's area, and at least 13 rho^2
   const Cloud cloud = test::joined(button, test::moved(crumb, {1.6, 0, 0}));
-  View view;
-  view.has_crumbs = true;
+  View view{.has_crumbs = true};
   const Surface without = surface_of(cloud), with = surface_of(cloud, view);
   EXPECT_EQ(without.crumbs, 1U);
   EXPECT_EQ(with.crumbs, 0U);
@@ -193,8 +187,7 @@ TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
 }
 
 TEST(Outlines, OfACroppedScanAreItsCut) {
-  View view;
-  view.crop = {{0, 0}, {.5, 1}};
+  View view{.crop = {{0, 0}, {.5, 1}}};
   const Surface surface = surface_of(test::button(40000, 1, .15), view);
   EXPECT_NEAR(Box::of(surface.points).size().x(), 1.15, surface.rho);
   EXPECT_NEAR(Box::of(surface.points).size().y(), 2.3, surface.rho);

@@ -1,7 +1,5 @@
 #include "relievo/scan/depth_image.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "support/results.h"
@@ -52,8 +50,7 @@ TEST(PictureCloud, IsReducedToMeans) {
   DepthImage image{filled_image(100, 100, 1.F), 1, "test"};
   for (std::size_t i = 0; i < image.values.size(); ++i)
     image.values[i] = i % 100 < 50 ? static_cast<float>(i % 2) : 2;
-  DepthOptions options;
-  options.points = 2500;
+  DepthOptions options{.points = 2500};
   const DepthCloud made = value_of(picture_cloud(image, options));
   EXPECT_EQ(made.reduction, 2);
   EXPECT_EQ(bounds(made.cloud).size(), Vec3(50, 50, 0));
@@ -74,9 +71,7 @@ TEST(DepthCloud, IsStretchedByTheSizeOfPixels) {
       image.values.at(c, r) =
           static_cast<float>(std::exp(-std::pow((c - 39.5) / 30, 2) - std::pow((r - 19.5) / 15, 2)));
   image.pixel_size = Vec2(10, 20);
-  DepthOptions options;
-  options.values = DepthValues::height;
-  options.background = Removal::keep;
+  DepthOptions options{.values = DepthValues::height, .background = Removal::keep};
   const Cloud cloud = value_of(depth_cloud(image, options)).cloud;
   EXPECT_EQ(bounds(cloud).size().x(), 79 / 2.);
   for (std::size_t i = 0; i < cloud.size(); ++i) {

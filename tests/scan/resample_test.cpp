@@ -1,8 +1,5 @@
 #include "relievo/scan/resample.h"
 
-#include <gtest/gtest.h>
-
-#include "support/shapes.h"
 #include "support/surfaces.h"
 
 namespace relievo {
@@ -19,9 +16,7 @@ TEST(Resample, GivesTheHeightsOfTrianglesAtOtherPoints) {
   for (std::size_t i = 0; i < there.size(); ++i) {
     const Vec3 p = to.points[i] + to.centre;
     const double away = p.head<2>().cwiseAbs().maxCoeff();
-    if (away < .95) {
-      EXPECT_NEAR(there[i], plane(p), 1e-9);
-    }
+    if (away < .95) EXPECT_NEAR(there[i], plane(p), 1e-9);
     if (away > 1.02) {
       EXPECT_EQ(there[i], 0);
     }

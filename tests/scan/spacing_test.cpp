@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <numbers>
-
 #include "support/shapes.h"
 
 namespace relievo {

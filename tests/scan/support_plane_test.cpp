@@ -1,8 +1,3 @@
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
 
 #include "core/angle.h"
 #include "relievo/scan/surface.h"
@@ -40,9 +35,7 @@ Vec3 tilted(double deg) {
 }
 
 Surface surface_of(const Cloud& cloud, bool has_plane = true) {
-  View view;
-  view.has_plane = has_plane;
-  view.denoise = 0;
+  View view{.has_plane = has_plane, .denoise = 0};
   return find_surface(cloud, view).value();
 }
 
@@ -200,9 +193,7 @@ TEST(SupportPlane, StaysLeftOutWhileTheModelIsTurned) {
   const Surface rest = turned_surface(scan.without_plane(surface), turned, 5000).value().surface;
   const Vec3 centre = turned.R_view_model * (normal - scan.centre);
   for (const Vec3& p : rest.points)
-    if ((p - centre).head<2>().norm() < .9) {
-      EXPECT_NEAR((p - centre).norm(), 1, .03);
-    }
+    if ((p - centre).head<2>().norm() < .9) EXPECT_NEAR((p - centre).norm(), 1, .03);
   EXPECT_NEAR(Box::of(rest.points).size().x(), 2, .1);
 }
 

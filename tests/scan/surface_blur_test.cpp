@@ -1,9 +1,5 @@
 #include "scan/surface_blur.h"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "support/same_bits.h"
 #include "support/shapes.h"
 

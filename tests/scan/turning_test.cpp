@@ -1,9 +1,5 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <random>
 
-#include "core/simd.h"
 #include "scan/measured_cloud.h"
 #include "scan/turning/turned_surface.h"
 #include "support/same_bits.h"
@@ -72,9 +68,8 @@ TEST(FrontCells, MarksTheEdgesOfAJump) {
 // Returns random cells at depth 0, about half of them covered.
 FrontCells random_front(unsigned seed) {
   constexpr int width = 50, height = 40;
-  FrontCells front;
-  front.depth = filled_image(width, height, 0.F);
-  front.normal = filled_image<Vec3f>(width, height, Vec3f::Zero());
+  FrontCells front{.depth = filled_image(width, height, 0.F),
+                   .normal = filled_image<Vec3f>(width, height, Vec3f::Zero())};
   std::mt19937 random(seed);
   for (Vec3f& normal : front.normal.pixels)
     if (random() % 2 == 0) normal = Vec3f::UnitZ(), ++front.covered;

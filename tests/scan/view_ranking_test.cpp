@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <array>
-#include <cmath>
-#include <numbers>
 
 #include "relievo/scan/view.h"
 #include "support/shapes.h"

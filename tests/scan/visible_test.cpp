@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "relievo/scan/view.h"
 #include "scan/depth_buffer.h"
 #include "support/shapes.h"

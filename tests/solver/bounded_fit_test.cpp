@@ -1,9 +1,6 @@
 #include "solver/bounded_fit.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
-#include <optional>
 
 #include "support/planar_systems.h"
 #include "support/results.h"

@@ -1,6 +1,5 @@
 #include "relievo/solver/cholesky.h"
 
-#include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <Eigen/Cholesky>

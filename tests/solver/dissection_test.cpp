@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <Eigen/OrderingMethods>
-#include <algorithm>
-#include <numbers>
 
 #include "geometry/hilbert.h"
 #include "support/planar_systems.h"

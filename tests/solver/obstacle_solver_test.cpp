@@ -162,9 +162,7 @@ TEST(ObstacleSolver, StaysWithinItsLimits) {
   EXPECT_EQ(*std::ranges::min_element(b), -.1F);
   EXPECT_EQ(*std::ranges::max_element(b), .2F);
   for (std::size_t n = 0; n < b.size(); ++n)
-    if (is_rim(n)) {
-      ASSERT_EQ(b[n], 0);
-    }
+    if (is_rim(n)) ASSERT_EQ(b[n], 0);
 }
 
 // Limits increase the least energy. The solution must still have less energy than a cut-off solution: one

@@ -140,9 +140,7 @@ TEST(OrderPull, HasNoPairsThatReachBeyondTheLattice) {
   OrderPull(columns, {depth, share, saturation, {2}})
       .write_bound(b, z, limits, {near.load, near.hold, near.lack});
   for (std::size_t n = 0; n < nodes; ++n)
-    if (n % columns == columns / 2) {
-      EXPECT_EQ(bound.load[n], near.load[n]) << n;
-    }
+    if (n % columns == columns / 2) EXPECT_EQ(bound.load[n], near.load[n]) << n;
 }
 
 TEST(OrderPull, HasNoPairsWithinACell) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <algorithm>
 #include <bit>
 
 #include "support/shapes.h"
@@ -21,8 +20,7 @@ SeparatorBand random_band(Index n, std::uint64_t seed) {
     nearby[a].push_back(b);
     nearby[b].push_back(a);
   }
-  SeparatorBand band;
-  band.direction = {1, 0};
+  SeparatorBand band{.direction = {1, 0}};
   for (auto& list : nearby) {
     band.graph.to.insert(band.graph.to.end(), list.begin(), list.end());
     band.graph.begin.push_back(static_cast<Index>(band.graph.to.size()));

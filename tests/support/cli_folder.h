@@ -5,7 +5,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -73,6 +72,13 @@ class CliFolder : public testing::Test {
     return outcome;
   }
 
+  // Runs the program and expects that it succeeds.
+  Outcome must_run(const std::string& arguments) const {
+    Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome;
+  }
+
   // Expects that the program fails, prints to stderr one line that contains `part`, and leaves no new file.
   void expect_refusal(const std::string& arguments, const std::string& part,
                       const std::string& before = "") const {
@@ -81,7 +87,7 @@ class CliFolder : public testing::Test {
     const Outcome outcome = run(arguments, before);
     EXPECT_GT(outcome.exit_code, 0) << arguments;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_TRUE(outcome.err.contains(part)) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(files(), before_run) << arguments;
   }

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "relievo/core/text.h"
 #include "support/format_samples.h"

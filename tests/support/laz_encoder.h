@@ -2,11 +2,8 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
 #include <map>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "support/format_samples.h"
 
@@ -216,11 +213,10 @@ inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, boo
     data += chunk;
   }
   const std::uint16_t size = is_layered ? 30 : 20;
-  const std::string record = raw(std::uint16_t{is_layered ? std::uint16_t{3} : std::uint16_t{2}}) +
-                             std::string(10, '\0') + raw(~std::uint32_t{0}) + std::string(16, '\0') +
-                             raw(std::uint16_t{1}) +
-                             raw(std::uint16_t{is_layered ? std::uint16_t{10} : std::uint16_t{6}}) +
-                             raw(size) + raw(std::uint16_t{is_layered ? std::uint16_t{3} : std::uint16_t{2}});
+  const std::uint16_t version = is_layered ? 3 : 2, item = is_layered ? 10 : 6;
+  const std::string record = raw(version) + std::string(10, '\0') + raw(~std::uint32_t{0}) +
+                             std::string(16, '\0') + raw(std::uint16_t{1}) + raw(item) + raw(size) +
+                             raw(version);
   std::string user = "laszip encoded";
   user.resize(16);
   std::string head = std::string(2, '\0') + user + raw(std::uint16_t{22204}) +

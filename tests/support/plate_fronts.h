@@ -54,8 +54,7 @@ inline HeightFieldMesh flat_front(const Grid& grid) {
 // Divides a convex polygon with counter-clockwise corners into a fan of triangles at the height `ground_mm`.
 // pyramid_front() instead connects the polygon's sides to an apex above its centre.
 inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
-  HeightFieldMesh front;
-  front.ground_mm = ground_mm;
+  HeightFieldMesh front{.ground_mm = ground_mm};
   for (Index i = 0; i < polygon.size(); ++i) {
     front.points.emplace_back(polygon[i].x(), polygon[i].y(), ground_mm);
     front.hull.push_back(i);
@@ -83,9 +82,11 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate with the given front. If there is none, the test fails.
+// Returns a plate with that front. If there is none, or it is not closed, the test fails.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
-  return value_of(make_plate(front, options));
+  Solid plate = value_of(make_plate(front, options));
+  EXPECT_EQ(check_solid(plate), "");
+  return plate;
 }
 
 // Returns an ellipse as a polygon with `n` corners. For the sizes that tests use, rounding leaves all corners convex.
@@ -132,6 +133,14 @@ inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
     depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
   }
   return depth;
+}
+
+// Returns the bounding box of the points that triangles use.
+inline Box used_box(const Solid& solid) {
+  Box box;
+  for (const Triangle& t : solid.triangles)
+    for (const Index i : t) box.extend(solid.points[i]);
+  return box;
 }
 
 // Returns whether a corner of the solid is nearer than `distance` to a point, as seen from above.

@@ -1,7 +1,10 @@
 // Makes preparations for tests of sessions.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <atomic>
+#include <chrono>
 #include <semaphore>
 #include <thread>
 
@@ -15,6 +18,12 @@ inline Preparation preparation_of(std::size_t points = 5000) {
   return {.points = [points](Progress&) -> Preparation::Points {
     return std::make_shared<const Cloud>(test::torus(points, 1, .4));
   }};
+}
+
+// Opens a preparation, and waits for its end.
+inline void open_and_wait(Session& session, const Preparation& preparation = preparation_of()) {
+  session.open(preparation);
+  ASSERT_TRUE(session.wait_until_idle(std::chrono::seconds(60)));
 }
 
 // A preparation that delivers its points only after it was cancelled.

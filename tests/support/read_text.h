@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
-#include <string_view>
+#include <map>
 #include <vector>
 
 #include "relievo/io/read.h"
+#include "relievo/scan/depth_image.h"
 #include "relievo/scan/scan_file.h"
 #include "support/results.h"
 
@@ -52,6 +52,30 @@ inline std::string replaced(std::string text, std::string_view what, std::string
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
     text.replace(at, what.size(), by);
   return text;
+}
+
+// Read a picture of depths with the name "d".
+inline Result<DepthImage> read_image(std::string_view text, const PictureChannels& channels = {}) {
+  return read_depth_image(bytes_of(text), "d", channels);
+}
+inline DepthImage image_in(std::string_view text, const PictureChannels& channels = {}) {
+  return value_of(read_image(text, channels));
+}
+inline std::string image_message(std::string_view text, const PictureChannels& channels = {}) {
+  return message_of(read_image(text, channels));
+}
+
+// Expects that each picture is refused with its message, preceded by the name.
+inline void expect_image_messages(const std::vector<BrokenText>& all) {
+  for (const auto& [text, message] : all) EXPECT_EQ(image_message(text), "d" + message);
+}
+
+// Returns a function that reads `files` by their names, as if they were beside a scan.
+inline FilesBeside files_beside(const std::map<std::string, std::string>& files) {
+  return [files](const std::string& name) -> Result<std::vector<std::byte>> {
+    if (const auto found = files.find(name); found != files.end()) return bytes_of(found->second);
+    return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
+  };
 }
 
 // Returns the first promise of read_cloud() that its answer breaks; an empty text if it breaks none.

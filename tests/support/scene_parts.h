@@ -1,8 +1,6 @@
 // Makes the models, poses and placements that scenes in tests consist of.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 #include "support/results.h"

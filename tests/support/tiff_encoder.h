@@ -1,10 +1,6 @@
 // Makes small TIFF pictures for tests.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "support/format_samples.h"
 
 namespace relievo {

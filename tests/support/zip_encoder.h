@@ -3,10 +3,7 @@
 
 #include <zlib.h>
 
-#include <cstdint>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "support/format_samples.h"
 
