@@ -1,7 +1,7 @@
 // Tests JPEG pictures, also as textures.
 #include <gtest/gtest.h>
 
-#include "io/pictures/jpeg_header.h"
+#include "io/pictures/pictures.h"
 #include "io/texture.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
