@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "fuzz/fuzz_program.h"
-#include "lettering/font.h"
+#include "lettering/ornament_shapes.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace relievo;

@@ -1,4 +1,3 @@
-#include "lettering/font.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <iterator>
 #include <memory>
 
+#include "lettering/ornament_shapes.h"
 #include "support/admesh.h"
 #include "support/results.h"
 
