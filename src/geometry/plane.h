@@ -1,9 +1,11 @@
-// Vectors and triangles in the plane.
+// Vectors, triangles and convex polygons in the plane.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "relievo/core/types.h"
 
@@ -48,5 +50,13 @@ inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, dou
   }
   return gradients;
 }
+
+// Returns the polygon with every side moved inwards by `mm`, outwards if negative. Sides that become shorter
+// than 0.0001 mm are removed. Neighbouring sides of the polygon must not be parallel, and the remaining sides
+// must still enclose an area.
+std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm);
+
+// Returns whether `place` is inside the convex polygon and at least `depth` away from its sides.
+bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth = 0);
 
 }  // namespace relievo

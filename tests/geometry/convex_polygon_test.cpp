@@ -1,8 +1,8 @@
-#include "geometry/convex_polygon.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "geometry/plane.h"
 #include "relievo/plate/outline.h"
 #include "support/plate_fronts.h"
 

@@ -1,9 +1,9 @@
-#include "pipeline/vertical_scale.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "pipeline/body.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/depth_image.h"
 #include "support/results.h"

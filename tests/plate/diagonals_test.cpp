@@ -1,10 +1,10 @@
-#include "plate/front/sample_squares.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "plate/front/sample_front.h"
 #include "support/triangles.h"
 
 namespace relievo {

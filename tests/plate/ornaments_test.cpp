@@ -1,4 +1,3 @@
-#include "plate/ornaments.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/plane.h"
+#include "plate/plate_surface.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
 #include "support/results.h"

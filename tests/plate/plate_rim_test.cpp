@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/convex_polygon.h"
+#include "geometry/plane.h"
 #include "relievo/plate/solid.h"
 #include "support/plate_fronts.h"
 

@@ -1,10 +1,11 @@
-#include "plate/front/sample_squares.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "plate/front/sample_front.h"
 
 namespace relievo {
 namespace {
