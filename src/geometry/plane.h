@@ -17,6 +17,11 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+// Returns twice the signed area of a triangle, positive if its corners run counter-clockwise.
+inline double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return cross(b - a, c - a);
+}
+
 // Returns the radius of the circle through the corners of a triangle; infinity if it has no area.
 inline double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - a;

@@ -5,7 +5,7 @@
 
 #include "plate/front/silhouette.h"
 #include "relievo/core/text.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {

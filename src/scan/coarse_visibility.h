@@ -3,6 +3,7 @@
 // tests/scan/view_ranking_test.cpp, tests/scan/normals_test.cpp and tests/scan/surface_test.cpp.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,5 +54,21 @@ void give_signs(Cloud& viewed, const Spacing& spacing);
 // Returns whether all normals face the viewer, as in a depth image of a room. Such normals seem to point
 // inwards, but if they were reversed, all would face away from the viewer.
 bool all_face_viewer(const Cloud& viewed);
+
+// A direction of view. `towards_viewer` points from the model to the viewer, `up` upwards in the view. They
+// are perpendicular unit vectors.
+struct Side {
+  Vec3 towards_viewer, up;
+};
+
+// Returns the side of the scan if a single view shows everything that was scanned; nothing if the cloud has
+// several layers from every direction.
+// - The view is along an axis of the file if the scan's own direction is close to it, otherwise along that
+// direction. It never shows the hollow back. Signed normals decide that; without them, the shape and a
+// possible camera at the file's origin.
+// - Up is Y, or Z in views along Y. In files of cameras that look along +Z, up is -Y. If the outline has a
+// broad straight foot on another side, that side is down.
+// The cloud must have normals and no outliers.
+std::optional<Side> scanned_side(const Cloud& cloud, NormalSigns signs);
 
 }  // namespace relievo

@@ -1,12 +1,27 @@
-// Depth jumps inside the silhouette: edges of the triangulation in the view plane that connect unconnected
-// parts of the surface.
+// The triangles inside the relief, their sides, and depth jumps: edges of the triangulation in the view plane that
+// connect unconnected parts of the surface.
 #pragma once
 
+#include <ranges>
 #include <vector>
 
 #include "relievo/scan/surface.h"
 
 namespace relievo {
+
+// Returns the triangles inside the relief as a view of the surface.
+inline auto triangles_inside(const Surface& surface) {
+  return std::views::iota(std::size_t{0}, surface.triangulation.triangles.size()) |
+         std::views::filter([&](std::size_t t) { return surface.boundary.is_inside[t] != 0; }) |
+         std::views::transform([&](std::size_t t) { return surface.triangulation.triangles[t]; });
+}
+
+// Calls f(a, b) for the sides of the triangles inside the relief; a side of two triangles comes twice.
+template <typename F>
+void each_side_inside(const Surface& surface, F&& f) {
+  for (const Triangle corners : triangles_inside(surface))
+    for (std::size_t k = 0; k < 3; ++k) f(corners[k], corners[(k + 1) % 3]);
+}
 
 // Returns whether there is a depth jump between two neighbouring points: their depths differ by more than 3
 // rho plus twice the difference that their normals explain.

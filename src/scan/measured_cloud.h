@@ -86,4 +86,36 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
 Result<Surface> find_surface(std::shared_ptr<const MeasuredCloud> measured, const View& view,
                              Progress* progress = nullptr);
 
+// The whole cloud as the view shows it, with signed normals and, where it may be visible, without noise.
+struct ViewedCloud {
+  Cloud cloud;  // without colours
+  const MeasuredCloud& measured;
+  std::shared_ptr<const MeasuredCloud::Scan> clean;  // what `cloud` was turned from
+  double sign = 1;                                   // -1 if the measured normals were reversed, else 1
+
+  const Spacing& spacing() const { return measured.spacing(); }
+};
+
+// Returns a surface without points. It has all properties that follow from the measurements and the view.
+Surface surface_of_view(const MeasuredCloud& measured, const View& view);
+
+// Returns the points, normals and outlines of a cloud in a view, relative to a centre and without colours. This is the
+// paper's equation (1), up to a turn about the line of sight.
+Cloud turned(const Cloud& cloud, const Mat3& R, const Vec3& centre = Vec3::Zero());
+
+// Turns the cloud into the view of the surface, with signed normals and, at all points that the view may show,
+// without the noise that it asks to remove. Sets the surface's rho, its facts about normals, and those about noise.
+// The result is not usable once the progress is cancelled.
+ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface, const Progress* progress = nullptr);
+
+// Returns an error that names a better view, if nine tenths of the surface face away from the viewer. A
+// relief would show only the remaining tenth, as when a bust that was scanned from the front is viewed from
+// behind.
+Result<void> check_side(const ViewedCloud& viewed, const View& view);
+
+// Return the errors for a view in which only `visible` points face the viewer, and for collinear visible
+// points.
+std::unexpected<Error> too_few_visible(std::size_t visible);
+std::unexpected<Error> no_area_error();
+
 }  // namespace relievo

@@ -1,6 +1,5 @@
 // Even sampling of a whole mesh. Declared in mesh.h, tested by tests/scan/mesh_test.cpp.
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"

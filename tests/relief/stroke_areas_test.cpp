@@ -1,10 +1,10 @@
-#include "relief/stroke_areas.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "relief/stroke_fields.h"
 #include "support/shapes.h"
 #include "support/surfaces.h"
 

@@ -1,9 +1,9 @@
-#include "scan/outlines/inner_lines.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "scan/outlines/outlines.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,4 +1,3 @@
-#include "scan/scanned_side.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "relievo/scan/normals.h"
+#include "scan/coarse_visibility.h"
 #include "support/shapes.h"
 
 namespace relievo {

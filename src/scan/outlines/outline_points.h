@@ -20,4 +20,10 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
 // another one behind it that turns away from the viewer there. No surface is visible between the two.
 void open_notches(Surface& surface);
 
+// Removes the points of small patches behind their surroundings. A patch is a set of points that depth jumps,
+// or gaps of 3 rho, separate from all others. A small patch has no space for rows of points beside its
+// outlines, and its surface cannot be recognised. Returns whether points were removed; then the triangulation
+// and the boundary must be computed again.
+bool drop_small_patches(Surface& surface, PointMeasures& measures);
+
 }  // namespace relievo
