@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <numeric>
 #include <ranges>
 #include <span>
@@ -30,6 +31,17 @@ std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
   for (Index i = 0; i < n; ++i)
     if (is_wanted(i)) found.push_back(i);
   return found;
+}
+
+// Returns how many of the numbers i in [0, n) is_counted(i) is true for, calling it concurrently.
+template <typename IsCounted>
+std::size_t count_where(std::size_t n, const IsCounted& is_counted) {
+  const auto count = [&](std::size_t begin, std::size_t end) {
+    std::size_t found = 0;
+    for (std::size_t i = begin; i < end; ++i) found += is_counted(i) ? 1 : 0;
+    return found;
+  };
+  return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
 inline std::vector<Index> all_indices(std::size_t n) {

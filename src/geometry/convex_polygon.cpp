@@ -1,8 +1,6 @@
-#include "geometry/convex_polygon.h"
+#include "geometry/plane.h"
 
 #include <cstddef>
-
-#include "geometry/plane.h"
 
 namespace relievo {
 namespace {

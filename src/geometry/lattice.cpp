@@ -15,13 +15,6 @@ namespace {
 constexpr Index most_counted =
     12;  // counted points per cell; more would hardly change a cell's mean, but cost time in every frame
 
-// Returns whether p is in the triangle or on its border. The corners are counter-clockwise.
-bool is_in(const Vec2& p, const std::array<Vec2, 3>& corners) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (cross(corners[(k + 1) % 3] - corners[k], p - corners[k]) < 0) return false;
-  return true;
-}
-
 }  // namespace
 
 Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, double cell)
@@ -97,7 +90,7 @@ void Lattice::mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> ma
   const Vec2 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
   for (double y = std::ceil(low.y()); y <= high.y(); ++y)
     for (double x = std::ceil(low.x()); x <= high.x(); ++x)
-      if (is_in({x, y}, corners))
+      if (is_within({x, y}, corners))
         marks[static_cast<std::size_t>(x) + width_ * static_cast<std::size_t>(y)] = 1;
 }
 

@@ -1,7 +1,6 @@
 #include "geometry/outline_union.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
@@ -103,6 +102,13 @@ std::vector<CutSide> sides_of(const Outlines& outlines) {
   return sides;
 }
 
+// Returns how a side changes the winding number of a place to the left of which it is.
+int turns_at(const Vec2& a, const Vec2& b, const Vec2& place) {
+  const double left = cross(b - a, place - a);
+  if (a.y() <= place.y() && b.y() > place.y() && left > 0) return 1;
+  return b.y() <= place.y() && a.y() > place.y() && left < 0 ? -1 : 0;
+}
+
 // Computes winding numbers. Sides are sorted into horizontal strips, so that only the sides in the strip of a
 // position are visited for this position.
 class WindingRows {
@@ -123,12 +129,8 @@ class WindingRows {
 
   int at(const Vec2& place) const {
     int turns = 0;
-    for (const std::size_t i : rows_[row_of(place.y())]) {
-      const Vec2 &a = sides_[i].from, &b = sides_[i].to;
-      const double left = cross(b - a, place - a);
-      if (a.y() <= place.y() && b.y() > place.y() && left > 0) ++turns;
-      if (b.y() <= place.y() && a.y() > place.y() && left < 0) --turns;
-    }
+    for (const std::size_t i : rows_[row_of(place.y())])
+      turns += turns_at(sides_[i].from, sides_[i].to, place);
     return turns;
   }
 
@@ -148,12 +150,8 @@ class WindingRows {
 int winding_number(const Outlines& outlines, const Vec2& place) {
   int turns = 0;
   for (const std::vector<Vec2>& outline : outlines)
-    for (std::size_t i = 0; i < outline.size(); ++i) {
-      const Vec2 &a = outline[i], &b = outline[(i + 1) % outline.size()];
-      const double left = cross(b - a, place - a);
-      if (a.y() <= place.y() && b.y() > place.y() && left > 0) ++turns;
-      if (b.y() <= place.y() && a.y() > place.y() && left < 0) --turns;
-    }
+    for (std::size_t i = 0; i < outline.size(); ++i)
+      turns += turns_at(outline[i], outline[(i + 1) % outline.size()], place);
   return turns;
 }
 

@@ -1,9 +1,11 @@
-// Computes with vectors and triangles in the plane.
+// Computes with vectors, triangles and convex polygons in the plane.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "relievo/core/types.h"
 
@@ -13,6 +15,11 @@ namespace relievo {
 // edges from the same corner of a triangle, this is twice the triangle's signed area.
 inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
+}
+
+// Returns twice the signed area of a triangle, positive if its corners run counter-clockwise.
+inline double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return cross(b - a, c - a);
 }
 
 // Returns the radius of the circle through the corners of a triangle; infinity if it has no area.
@@ -48,5 +55,13 @@ inline std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& corners, dou
   }
   return gradients;
 }
+
+// Returns the polygon after every side was moved inwards by `mm`. A negative `mm` moves the sides outwards.
+// Sides that become shorter than 0.0001 mm are removed. Neighbouring sides of the polygon must not be
+// parallel, and the remaining sides must still enclose an area.
+std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm);
+
+// Returns whether `place` is inside the convex polygon and at least `depth` away from its sides.
+bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth = 0);
 
 }  // namespace relievo

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/lists.h"
 #include "io/readers.h"
 #include "relievo/core/parallel.h"
 
@@ -108,13 +109,8 @@ void decode_rows(const Records& records, const char* first, std::size_t rows, Cl
 
 std::size_t count_left_out(const Records& records, const char* first, std::size_t rows) {
   if (!records.left_out) return 0;
-  const auto count = [&](std::size_t begin, std::size_t end) {
-    std::size_t found = 0;
-    for (std::size_t i = begin; i < end; ++i)
-      found += records.left_out->is_left_out(first + i * records.stride) ? 1 : 0;
-    return found;
-  };
-  return parallel_reduce(rows, std::size_t{0}, count, std::plus<>());
+  return count_where(
+      rows, [&](std::size_t i) { return records.left_out->is_left_out(first + i * records.stride); });
 }
 
 Cloud decode_all(const Records& records, const char* first) {

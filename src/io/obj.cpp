@@ -32,7 +32,8 @@ class ObjReader {
       if (keyword == "vt") textures_.take_coordinates(words);
       if (keyword == "mtllib") textures_.take_libraries(rest_of(keyword));
       if (keyword == "usemtl") textures_.take_material(rest_of(keyword));
-      if (keyword == "curv" || keyword == "curv2" || keyword == "surf") take_curve();
+      const bool is_curve = keyword == "curv" || keyword == "curv2" || keyword == "surf";
+      if (is_curve && curves_++ == 0) first_curve_line_ = first_line_;
     }
     if (points_.empty()) return lines_.fail_at_end("lines 'v x y z'");
     // The points of a file that has only curves are control points, and need not lie on the curves.
@@ -121,34 +122,22 @@ class ObjReader {
     }
   }
 
-  void take_curve() {
-    if (curves_++ == 0) first_curve_line_ = first_line_;
-  }
-
   Result<void> take_face(Words& words) {
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const std::size_t slash = std::min(word.find('/'), word.size());
-      const auto vertex = resolve(word.substr(0, slash), points_.size());
+      const auto vertex = resolve_obj_index(word.substr(0, slash), points_.size());
       if (!vertex) return fail("expected the number of a vertex, found " + in_quotes(word));
       if (*vertex > highest_vertex_) highest_vertex_ = *vertex, highest_line_ = first_line_;
       corners_.push_back({*vertex, no_index});
       if (*vertex < points_.size()) textures_.take_corner(*vertex, word.substr(slash));
       const std::size_t second = word.find('/', slash + 1);
       if (second >= word.size() - 1) continue;  // corners without normal: "1", "1/2" and "1/2/"
-      const auto normal = resolve(word.substr(second + 1), normals_.size());
+      const auto normal = resolve_obj_index(word.substr(second + 1), normals_.size());
       if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
       corners_.back().normal = *normal;
     }
     face_ends_.push_back(corners_.size());
     return {};
-  }
-
-  // Converts an index that counts from 1, or backwards from -1, to one that counts from 0.
-  static std::optional<Index> resolve(std::string_view word, std::size_t defined) {
-    std::int64_t index = parse_integer(word).value_or(0);
-    if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
-    if (index <= 0 || index >= no_index) return std::nullopt;
-    return static_cast<Index>(index - 1);
   }
 
   // This check comes last, because faces may precede their vertices.

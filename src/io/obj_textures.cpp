@@ -52,6 +52,13 @@ std::optional<Texture> read_texture(const Source& source, const std::string& nam
 
 }  // namespace
 
+std::optional<Index> resolve_obj_index(std::string_view word, std::size_t defined) {
+  std::int64_t index = parse_integer(word).value_or(0);
+  if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
+  if (index <= 0 || index >= no_index) return std::nullopt;
+  return static_cast<Index>(index - 1);
+}
+
 void ObjTextures::take_coordinates(Words& words) {
   const double u = parse_number(words.next()).value_or(0), v = parse_number(words.next()).value_or(0);
   coordinates_.push_back({static_cast<float>(u), static_cast<float>(v)});
@@ -70,11 +77,10 @@ void ObjTextures::take_material(std::string_view name) {
 void ObjTextures::take_corner(Index vertex, std::string_view word) {
   if (material_ == no_index || libraries_.empty() || word.size() < 2) return;
   const std::string_view number = word.substr(1, word.find('/', 1) - 1);
-  std::int64_t index = parse_integer(number).value_or(0);
-  if (index < 0) index += static_cast<std::int64_t>(coordinates_.size()) + 1;
-  if (index <= 0 || index >= std::int64_t{no_index}) return;
+  const std::optional<Index> index = resolve_obj_index(number, coordinates_.size());
+  if (!index) return;
   if (uses_.size() <= vertex) uses_.resize(vertex + std::size_t{1});
-  if (uses_[vertex].coordinates == no_index) uses_[vertex] = {static_cast<Index>(index - 1), material_};
+  if (uses_[vertex].coordinates == no_index) uses_[vertex] = {*index, material_};
 }
 
 void ObjTextures::add_colours(const Source& source, RawCloud& raw) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "relievo/core/types.h"
 
 namespace relievo::io {
+
+// Converts an index that counts from 1, or backwards from -1 at the `defined` entries before it, to one that counts
+// from 0.
+std::optional<Index> resolve_obj_index(std::string_view word, std::size_t defined);
 
 // Processes the lines of an OBJ that concern textures, and determines a colour per vertex.
 class ObjTextures {

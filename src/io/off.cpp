@@ -133,8 +133,7 @@ class OffReader {
       const auto number = parse_number(word);
       if (!number) return lines_.fail("expected three numbers for the colour, found " + in_quotes(word));
       const double scale = word.find('.') == std::string_view::npos ? 1 : 255;
-      const double byte = scale * *number;
-      value = byte > 0 ? static_cast<std::uint8_t>(std::min(255.0, byte + .5)) : std::uint8_t{0};
+      value = as_byte(scale * *number);
     }
     cloud_.colours.push_back(colour);
     return {};

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "io/formats.h"
-#include "io/splat.h"
 #include "io/text.h"
 
 namespace relievo::io {

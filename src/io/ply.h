@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "io/polygon.h"
 #include "io/readers.h"
 #include "relievo/core/text.h"
+#include "relievo/core/types.h"
 
 namespace relievo::io {
 
@@ -107,5 +109,15 @@ struct FaceList {
 };
 // Returns the list property of an element; nothing if it has none.
 std::optional<FaceList> find_face_list(const PlyElement& element);
+
+// The logarithm of the third scale of splats that are flat discs. This scale is 0; files state only the other
+// two scales.
+constexpr double no_depth = -std::numeric_limits<double>::infinity();
+
+// Returns the unit vector along which a splat is thinnest. Its sign is arbitrary. `log_scales` are the
+// logarithms of its scales, `rotation` is a quaternion w, x, y, z of any length. The result is zero if the
+// two smallest scales are nearly equal, which makes the direction arbitrary, or if the rotation is zero or
+// not finite.
+Vec3f splat_axis(const Vec3& log_scales, const std::array<double, 4>& rotation);
 
 }  // namespace relievo::io

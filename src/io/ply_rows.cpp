@@ -2,7 +2,6 @@
 #include <limits>
 
 #include "io/ply.h"
-#include "io/splat.h"
 
 namespace relievo::io {
 namespace {
@@ -175,10 +174,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, PlyContent& con
     if (value) values[column_of[property]] = *value;
     return value.has_value();
   };
-  const auto byte = [&](double v) {
-    const double scaled = colour.scale * v + colour.shift;
-    return scaled > 0 ? static_cast<std::uint8_t>(std::min(255.0, scaled + .5)) : std::uint8_t{0};
-  };
+  const auto byte = [&](double v) { return as_byte(colour.scale * v + colour.shift); };
   for (std::size_t i = 0; i < body.vertex.count; ++i) {
     if (const auto read = rows.read_row(body.vertex, take, [](auto...) { return true; }); !read) return read;
     if (i >= cloud.size()) continue;

@@ -5,7 +5,6 @@
 
 #include "core/lists.h"
 #include "io/formats.h"
-#include "io/pictures/jpeg_header.h"
 #include "io/pictures/pictures.h"
 #include "io/ply.h"
 #include "io/text.h"
@@ -23,16 +22,6 @@ Result<io::RawCloud> read_by_format(const io::Source& source) {
       if (format.is_format(source)) return format.read(source);
   return source.error({}, cat("expected a ", readable_formats(), ", found ",
                               is_empty ? "an empty file" : io::foreign_format(source)));
-}
-
-template <typename IsBad>
-std::size_t count_points(std::size_t n, const IsBad& is_bad) {
-  const auto count = [&](std::size_t begin, std::size_t end) {
-    std::size_t bad = 0;
-    for (std::size_t i = begin; i < end; ++i) bad += is_bad(i) ? 1 : 0;
-    return bad;
-  };
-  return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
 // If the cloud is organised, which means that its points are the pixels of a depth camera, smooths it like a
@@ -58,10 +47,10 @@ constexpr std::size_t most_at_origin = 16;
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
-      count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].isZero(0); });
+      count_where(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].isZero(0); });
   if (zeros <= most_at_origin) return 0;
   const std::size_t finite =
-      count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].allFinite(); });
+      count_where(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].allFinite(); });
   return zeros < finite ? zeros : 0;
 }
 
@@ -76,10 +65,10 @@ void drop_unusable(CloudFile& file) {
     return is_finite(i) && (file.unmeasured_points == 0 || !cloud.points[i].isZero(0));
   };
   const auto has_normal = [&](std::size_t i) { return !cloud.has_normals() || !cloud.normals[i].isZero(0); };
-  const std::size_t not_finite = count_points(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
+  const std::size_t not_finite = count_where(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
   file.dropped_points = not_finite - std::min(not_finite, file.left_out_points);
   file.dropped_normals =
-      count_points(cloud.size(), [&](std::size_t i) { return is_place(i) && !has_normal(i); });
+      count_where(cloud.size(), [&](std::size_t i) { return is_place(i) && !has_normal(i); });
   const std::size_t no_places = not_finite + file.unmeasured_points;
   if (file.dropped_normals > (cloud.size() - no_places) / 2) cloud.normals.clear();
   if (no_places + file.dropped_normals == 0) return;

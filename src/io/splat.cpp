@@ -1,9 +1,8 @@
 // Reads .splat: Gaussian splats in rows of 32 bytes, without a header. A row has the position and the scales
 // as floats, then red, green, blue and opacity, and a rotation, as bytes.
-#include "io/splat.h"
+#include "io/ply.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "io/formats.h"

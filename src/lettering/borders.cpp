@@ -1,11 +1,10 @@
-#include "lettering/borders.h"
+#include "geometry/plane.h"
+#include "lettering/ornament_shapes.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "geometry/convex_polygon.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,4 @@
-#include "lettering/font.h"
+#include "lettering/ornament_shapes.h"
 
 #include <fribidi.h>
 #include <hb-ot.h>

@@ -6,9 +6,7 @@
 #include <numbers>
 
 #include "core/angle.h"
-#include "geometry/convex_polygon.h"
-#include "lettering/borders.h"
-#include "lettering/font.h"
+#include "geometry/plane.h"
 #include "relievo/core/text.h"
 
 namespace relievo {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/outline_union.h"
 #include "geometry/raised_shape.h"
 #include "relievo/lettering/ornament.h"
 
@@ -30,5 +31,44 @@ double margin_of_borders(std::span<const Ornament> ornaments, double margin_mm);
 // size.
 Result<std::vector<RaisedShape>> ornament_shapes(std::span<const Ornament> ornaments,
                                                  const OrnamentFrame& frame);
+
+// A row of equal beads or strands along a convex polygon.
+struct BorderRow {
+  std::vector<Vec2> path;
+  double width_mm = 0;
+  double count = 0;  // number of beads or strands; 0: as many as fit well
+};
+
+// Returns both edges of a line with the given width. The outer edge is `before_mm` inside the polygon.
+Outlines line_outlines(std::span<const Vec2> polygon, double before_mm, double width_mm);
+
+// Returns discs whose diameter is the width of the row.
+Outlines bead_outlines(const BorderRow& row);
+
+// Returns ellipses that are tilted against the path, as the strands of a rope.
+Outlines rope_outlines(const BorderRow& row);
+
+// Returns the radius of the largest circle inside a bead, which is a polygon.
+double bead_radius(const BorderRow& row);
+
+// Returns the smaller half axis of a rope's ellipse.
+double strand_radius(const BorderRow& row);
+
+// Glyphs that belong together, such as a letter with its marks. Coordinates are relative to the start of the
+// line and its baseline. The unit is the height of the font's capitals.
+struct GlyphCluster {
+  Outlines outlines;
+  double begin = 0, advance = 0;
+  bool is_joined = false;  // connected to its neighbours, as Arabic letters are
+};
+
+struct ShapedLine {
+  std::vector<GlyphCluster> clusters;  // from left to right
+  double advance = 0, x_height = 0;
+};
+
+// Returns the line of text in the ornament's font, or in the embedded font if it has none. Curves become
+// polygons that deviate by at most `tolerance`, in heights of capitals. Errors: those of check_text().
+Result<ShapedLine> shape_line(const Ornament& ornament, double tolerance);
 
 }  // namespace relievo

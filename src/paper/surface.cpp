@@ -5,8 +5,7 @@
 #include "geometry/plane.h"
 #include "paper/curvature.h"
 #include "paper/visible_points.h"
-#include "relievo/core/text.h"
-#include "scan/viewed_cloud.h"
+#include "scan/measured_cloud.h"
 
 namespace relievo::paper {
 namespace {

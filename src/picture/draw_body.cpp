@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "geometry/image_filters.h"
-#include "picture/reach_tint.h"
 #include "picture/shading.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/types.h"

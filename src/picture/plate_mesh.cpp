@@ -13,18 +13,18 @@ constexpr double frame_padding =
 // The plate's triangles are computed only once, for a relief of this width. Options move only the plate's corners.
 constexpr double width_mm = 100;
 
+Vec2 half_plate(const PlateMesh& mesh, const RenderOptions& options) {
+  return options.mm_per_unit * mesh.half + Vec2::Constant(options.margin_mm);
+}
+
+}  // namespace
+
 Mat3 rotation_of(const Camera& camera) {
   const double degree = std::numbers::pi / 180;
   return (Eigen::AngleAxisd(camera.pitch_deg * degree, Vec3::UnitX()) *
           Eigen::AngleAxisd(camera.yaw_deg * degree, Vec3::UnitY()))
       .matrix();
 }
-
-Vec2 half_plate(const PlateMesh& mesh, const RenderOptions& options) {
-  return options.mm_per_unit * mesh.half + Vec2::Constant(options.margin_mm);
-}
-
-}  // namespace
 
 PlateParts parts_of_frames(const Solid& level, const Surface& surface) {
   PlateParts parts = plate_parts(level);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "picture/body.h"
-#include "picture/screen_transform.h"
+#include "picture/draw_body.h"
 #include "relievo/picture/render.h"
 
 namespace relievo {
@@ -27,6 +27,9 @@ PlateParts parts_of_frames(const Solid& level, const Surface& surface);
 
 // Returns the body of a frame on its plate. The body refers to the mesh and to `shown`.
 DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
+
+// Returns the rotation from the body to the screen.
+Mat3 rotation_of(const Camera& camera);
 
 // Returns the transform that fits a box of the given size, centred at the origin, into the picture after
 // the camera has rotated and moved it.

@@ -1,10 +1,8 @@
 #include "relievo/picture/preview.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "picture/draw_body.h"
@@ -28,13 +26,6 @@ constexpr float brightest_wall = .90F, darkest_wall = .70F;
 // The oblique view is from above on the right, because there the upper left lamp shows slopes and the
 // plate's edge best.
 constexpr double oblique_yaw_deg = -35, oblique_pitch_deg = 20;
-
-Mat3 oblique_rotation() {
-  const double degree = std::numbers::pi / 180;
-  return (Eigen::AngleAxisd(oblique_pitch_deg * degree, Vec3::UnitX()) *
-          Eigen::AngleAxisd(oblique_yaw_deg * degree, Vec3::UnitY()))
-      .matrix();
-}
 
 // Returns the part of a solid below `most_z`.
 Solid cut_open(const Solid& solid, double most_z) {
@@ -73,7 +64,7 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
 // picture is the front view of `front_body`. The second one is the oblique view of `oblique_body`.
 std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
                                                   int longer_side_px) {
-  const Mat3 rotation = oblique_rotation();
+  const Mat3 rotation = rotation_of({oblique_yaw_deg, oblique_pitch_deg});
   const Box front = rotated_box(front_body, Mat3::Identity()), side = rotated_box(oblique_body, rotation);
   const double longer = std::max(front.size().x(), front.size().y());
   const double scale = longer_side_px * (1 - 2 * preview_padding) / longer,

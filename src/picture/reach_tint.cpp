@@ -1,4 +1,4 @@
-#include "picture/reach_tint.h"
+#include "picture/shading.h"
 
 #include <cmath>
 

@@ -1,11 +1,17 @@
 // Makes the front and the body of a relief, as its options ask.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "relievo/core/progress.h"
+#include "relievo/job.h"
 #include "relievo/options.h"
 #include "relievo/plate/simplify.h"
 #include "relievo/plate/solid.h"
 #include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 
@@ -89,5 +95,33 @@ struct FormedBody {
 // simplified_front() and make_body(); kind option if the solid needs more triangles than the limit for its
 // outline and walls alone.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
+
+// Returns, per point, whether it is on an edge of a tile. There the relief does not go down to the ground. A
+// point is on such an edge if it is on a straight side of the surface's hull, and not at a hole.
+std::vector<std::uint8_t> tile_edges(const Surface& surface);
+
+// Returns the relief whose heights are `options.mm_per_value` times the surface's values above the ground.
+// Lower values get the height of the ground. Points on the edges of a tile keep their heights. Errors: kind
+// option if the surface's depths are not proportional to the values of its file, or if the relief would be
+// higher than 1e5 mm; kind geometry if nothing is above the ground.
+Result<Relief> relief_of_values(const Surface& surface, const ReliefOptions& options, double mm_per_unit);
+
+// Adds nearly vertical walls under the edges of a tile, because the hull of a front must be on the ground.
+// Each point on an edge gets a copy with the point's height, about a hundredth of a millimetre further
+// inside. The walls are appended to the front's triangles.
+void raise_walls(HeightFieldMesh& front, const Surface& surface);
+
+struct SampledModel {
+  ReliefModel model;
+  std::vector<SampleNote> notes;  // notes on how the points of the scene were sampled
+};
+
+// Returns the model of the scene in its view. Errors: those of prepare() in job.h.
+Result<SampledModel> prepare_sampled(Job job, Progress* progress);
+
+// Prepares a model as prepare() in make_relief.h does, but frees the points early, unless they have other
+// owners.
+Result<ReliefModel> prepare_owned(std::shared_ptr<const Cloud> points, const View& view,
+                                  const ModelOptions& options, Progress* progress);
 
 }  // namespace relievo

@@ -5,7 +5,6 @@
 
 #include "geometry/slope_limit.h"
 #include "pipeline/body.h"
-#include "pipeline/vertical_scale.h"
 #include "plate/front/sample_front.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/text.h"

@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "pipeline/body.h"
-#include "pipeline/sampled_model.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/io/read.h"

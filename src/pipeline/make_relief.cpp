@@ -8,8 +8,6 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
-#include "pipeline/sampled_model.h"
-#include "pipeline/vertical_scale.h"
 #include "relievo/core/text.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/job.h"

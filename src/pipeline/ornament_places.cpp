@@ -5,7 +5,7 @@
 #include "geometry/weld.h"
 #include "lettering/ornament_shapes.h"
 #include "pipeline/body.h"
-#include "plate/ornaments.h"
+#include "plate/plate_surface.h"
 #include "relievo/core/within_memory.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/forms.h"

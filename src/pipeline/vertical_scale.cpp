@@ -1,11 +1,11 @@
-#include "pipeline/vertical_scale.h"
+#include "pipeline/body.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "plate/front/silhouette.h"
 #include "relievo/core/text.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
@@ -37,15 +37,15 @@ class ValueScale {
 };
 
 // A straight side of a convex hull.
-struct Side {
+struct HullSide {
   Vec2 place, inwards;
 };
 
 // Returns the sides of the hull. Neighbouring edges with nearly the same direction count as one side.
-std::vector<Side> sides_of(const Surface& surface) {
+std::vector<HullSide> sides_of(const Surface& surface) {
   constexpr double same_direction = 1 - 1e-6;
   const std::vector<Index>& hull = surface.triangulation.hull;
-  std::vector<Side> sides;
+  std::vector<HullSide> sides;
   for (std::size_t k = 0; k < hull.size(); ++k) {
     const Vec2 a = surface.points[hull[k]].head<2>(),
                b = surface.points[hull[(k + 1) % hull.size()]].head<2>();
@@ -68,11 +68,11 @@ std::vector<BoundaryEdge> relief_edges(const Surface& surface) {
 
 std::vector<std::uint8_t> tile_edges(const Surface& surface) {
   constexpr double near = .01;  // distance from a side, in rho; rounding moves points off a straight side
-  const std::vector<Side> sides = sides_of(surface);
+  const std::vector<HullSide> sides = sides_of(surface);
   std::vector<std::uint8_t> is_on_side(surface.points.size());
   for (std::size_t i = 0; i < is_on_side.size(); ++i)
     is_on_side[i] =
-        surface.boundary.is_boundary[i] && std::ranges::any_of(sides, [&](const Side& side) {
+        surface.boundary.is_boundary[i] && std::ranges::any_of(sides, [&](const HullSide& side) {
           return (surface.points[i].head<2>() - side.place).dot(side.inwards) < near * surface.rho;
         });
   // At a hole the relief goes down to the ground, so the points beside it do not belong to an edge of the

@@ -7,7 +7,6 @@
 
 #include "geometry/slope_limit.h"
 #include "plate/coincident_points.h"
-#include "relievo/core/text.h"
 
 namespace relievo {
 namespace {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "core/lists.h"
-#include "geometry/convex_polygon.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "geometry/weld.h"

@@ -1,11 +1,11 @@
-#include "plate/ornaments.h"
+#include "geometry/plane.h"
+#include "plate/plate_surface.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/lists.h"
-#include "geometry/convex_polygon.h"
 #include "geometry/held_edges.h"
 #include "geometry/slope_limit.h"
 #include "geometry/weld.h"

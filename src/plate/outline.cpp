@@ -166,18 +166,14 @@ Frame inner_frame(Points points, const OutlineOptions& options) {
   return frame;
 }
 
+// The corners are sharp unless the outline is Outline::round.
 std::vector<Vec2> rectangle_around(Points points, const OutlineOptions& options) {
   const Frame frame = inner_frame(points, options);
-  if (options.size_mm.x() > 0) return to_polygon(sides_of_rectangle(frame, options, 0), frame.centre, 0);
-  return around(points, frame.centre, sides_of_rectangle(frame, options, 0), options.margin_mm);
-}
-
-std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& options) {
-  const Frame frame = inner_frame(points, options);
   const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
-  const double corner = std::min(options.corner_mm, half.minCoeff());
-  if (options.size_mm.x() > 0) return to_polygon(sides_of_rectangle(frame, options, corner), frame.centre, 0);
-  return around(points, frame.centre, sides_of_rectangle(frame, options, corner), options.margin_mm);
+  const double corner = options.outline == Outline::round ? std::min(options.corner_mm, half.minCoeff()) : 0;
+  const std::vector<Side> sides = sides_of_rectangle(frame, options, corner);
+  if (options.size_mm.x() > 0) return to_polygon(sides, frame.centre, 0);
+  return around(points, frame.centre, sides, options.margin_mm);
 }
 
 // Returns an ellipse around the points, with axes in the ratio of `shape`.
@@ -224,7 +220,7 @@ struct OutlineShape {
 
 constexpr std::array shapes = {
     OutlineShape{Outline::rectangle, rectangle_around, true, true},
-    OutlineShape{Outline::round, round_rectangle_around, true}, OutlineShape{Outline::circle, circle_around},
+    OutlineShape{Outline::round, rectangle_around, true}, OutlineShape{Outline::circle, circle_around},
     OutlineShape{Outline::ellipse, ellipse_around, true}, OutlineShape{Outline::hexagon, hexagon_around}};
 
 const OutlineShape* shape_of(Outline outline) {

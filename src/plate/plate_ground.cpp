@@ -5,7 +5,6 @@
 #include <ranges>
 
 #include "core/lists.h"
-#include "geometry/convex_polygon.h"
 #include "geometry/plane.h"
 
 namespace relievo {

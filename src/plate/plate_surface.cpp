@@ -5,10 +5,9 @@
 #include <functional>
 #include <utility>
 
-#include "geometry/convex_polygon.h"
+#include "geometry/plane.h"
 #include "lettering/ornament_shapes.h"
 #include "plate/deformation.h"
-#include "plate/ornaments.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/simplify.h"
 

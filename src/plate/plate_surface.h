@@ -5,7 +5,9 @@
 #include <limits>
 #include <span>
 
+#include "geometry/raised_shape.h"
 #include "geometry/weld.h"
+#include "lettering/ornament_shapes.h"
 #include "plate/plate_ground.h"
 #include "relievo/plate/solid.h"
 #include "relievo/plate/tool.h"
@@ -42,5 +44,21 @@ Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& optio
 // ground gets none. `edges` are the rim's edges in the surface's coordinates; points along them keep them
 // sharp. A surface without ground keeps its triangles, and only its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
+
+// Returns the area for ornaments on a plate of the given outline.
+OrnamentFrame ornament_frame(const PlateOutline& outline, const PlateOptions& options);
+
+// Replaces the level ground of a surface by ground with the shapes on it. The shapes are in the surface's coordinates.
+// `inner` is the polygon inside the rim. Triangles that are not ground are kept. Sets `surface.ornaments`. Errors: kind
+// option if a shape touches the relief, the rim or another shape, or if the surface has no level ground.
+Result<void> add_shapes(Solid& surface, std::span<const RaisedShape> shapes, std::span<const Vec2> inner);
+
+// Returns an error of kind option if a plate would reach the wrap's axis. The plate's bottom lies `bottom_mm`
+// below the ground, and its highest point lies `highest_mm` above the ground.
+Result<void> check_room(const Wrap& wrap, double bottom_mm, double highest_mm);
+
+// Returns an error of kind option if the plate goes all the way around, but has no two straight and equal sides that
+// can meet.
+Result<void> check_closed(const PlateOptions& options, const Wrap& wrap);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-#include "plate/plate_wrap.h"
+#include "plate/plate_surface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include "geometry/weld.h"
 #include "plate/coincident_points.h"
 #include "plate/deformation.h"
-#include "plate/plate_surface.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 

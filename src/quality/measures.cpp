@@ -10,7 +10,6 @@
 #include "quality/model_picture.h"
 #include "quality/surface_measures.h"
 #include "relievo/core/parallel.h"
-#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {

@@ -7,7 +7,7 @@
 #include "core/quantile.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {

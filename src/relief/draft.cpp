@@ -14,7 +14,7 @@
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/scan/surface.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {

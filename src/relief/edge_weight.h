@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <span>
+#include <vector>
 
 #include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "relievo/core/types.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 
@@ -48,6 +50,22 @@ inline float edge_weight(std::span<const Vec3> points, std::span<const TriangleS
   for (const TriangleSide& s : sides)
     sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
   return edge_weight(sum, {}, sides[0].low(), sides[0].high());
+}
+
+// An edge of a surface, from the point with the lower index, and its weight.
+struct WeightedLink {
+  Index a, b;
+  float weight;
+};
+
+// Returns the edges with a triangle side for which is_wanted(side) is true, in the order of each_edge().
+template <typename IsWanted>
+std::vector<WeightedLink> weighted_links(const Surface& surface, IsWanted&& is_wanted) {
+  std::vector<WeightedLink> links;
+  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
+    links.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
+  });
+  return links;
 }
 
 }  // namespace relievo

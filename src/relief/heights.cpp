@@ -26,20 +26,20 @@ Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& tr
   });
 }
 
-// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i in [first, end), in
-// ascending order; add(entries) appends the entries of row i.
-template <typename Entry, typename Make>
-Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
+// Returns the entries of each row. A copy of `add_row` for each task appends them: add_row(i, entries) those of row i.
+template <typename Entry, typename AddRow>
+Groups<Entry> rows_in_order(std::size_t rows, const AddRow& add_row) {
   Groups<Entry> all{std::vector<Index>(rows + 1), {}};
   std::vector<std::vector<Entry>> parts((rows + default_grain - 1) / default_grain);
   parallel_ranges(rows, default_grain, [&](std::size_t first, std::size_t end) {
     std::vector<Entry>& part = parts[first / default_grain];
     part.reserve(8 * (end - first));
-    make(first, end, [&](std::size_t i, auto&& add) {
+    AddRow add = add_row;
+    for (std::size_t i = first; i < end; ++i) {
       const std::size_t before = part.size();
-      add(part);
+      add(static_cast<Index>(i), part);
       all.begin[i + 1] = static_cast<Index>(part.size() - before);
-    });
+    }
   });
   std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
   all.items.reserve(all.begin.back());
@@ -111,15 +111,12 @@ class EdgeRows {
 Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
                        const Boundary& boundary, std::span<const float> weights) {
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
-  return rows_in_order<WeightedEdge>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
-    EdgeRows rows(points, triangles);
-    for (std::size_t i = first; i < end; ++i)
-      row(i, [&](std::vector<WeightedEdge>& edges) {
-        const std::size_t before = edges.size();
-        rows.add(corners[i], edges);
-        for (std::size_t e = before; e < edges.size(); ++e)
-          edges[e].weight = edge_weight(edges[e].weight, weights, static_cast<Index>(i), edges[e].to);
-      });
+  return rows_in_order<WeightedEdge>(points.size(), [&, rows = EdgeRows(points, triangles)](
+                                                        Index i, std::vector<WeightedEdge>& edges) mutable {
+    const std::size_t before = edges.size();
+    rows.add(corners[i], edges);
+    for (std::size_t e = before; e < edges.size(); ++e)
+      edges[e].weight = edge_weight(edges[e].weight, weights, i, edges[e].to);
   });
 }
 
@@ -160,7 +157,7 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
 // both points.
 Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
                                     std::span<const Index> unknown) {
-  const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {
+  return rows_in_order<MatrixEntry>(points.size(), [&](Index i, std::vector<MatrixEntry>& entries) {
     const bool is_free = unknown[i] != no_index;
     bool has_itself = is_free;
     for (const auto& [other, weight] : adjacency[i]) {
@@ -170,10 +167,6 @@ Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacenc
       entries.push_back({other, coefficient.cast<float>()});
     }
     if (!has_itself) entries.push_back({i});
-  };
-  return rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
-    for (std::size_t i = first; i < end; ++i)
-      row(i, [&](std::vector<MatrixEntry>& entries) { add(static_cast<Index>(i), entries); });
   });
 }
 
@@ -198,10 +191,6 @@ struct Term {
   Vec2 coefficient;
 };
 
-double twice_area(std::span<const Vec2> points, const Triangle& t) {
-  return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
-}
-
 // Computes the rows of vertex_normal_matrix(), point by point. Corner i of triangle t has the number 3 t + i.
 class NormalRows {
  public:
@@ -215,8 +204,9 @@ class NormalRows {
     terms_.clear();
     double z = 0;
     for (const Index corner : corners) {
-      add_terms(triangles_[corner / 3], corner % 3);
-      z += twice_area(points_, triangles_[corner / 3]);
+      const Triangle& t = triangles_[corner / 3];
+      add_terms(t, corner % 3);
+      z += twice_area(points_[t[0]], points_[t[1]], points_[t[2]]);
     }
     for (auto term = terms_.begin(); term != terms_.end();) {
       Vec2 coefficient = Vec2::Zero();
@@ -297,12 +287,9 @@ SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangu
                                      const Boundary& boundary, const SlicedEllMatrix* like) {
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
-  const auto entries =
-      rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
-        NormalRows rows(points, triangles);
-        for (std::size_t i = first; i < end; ++i)
-          row(i, [&](std::vector<MatrixEntry>& added) { rows.add(corners[i], added); });
-      });
+  const auto entries = rows_in_order<MatrixEntry>(
+      points.size(), [&, rows = NormalRows(points, triangles)](
+                         Index i, std::vector<MatrixEntry>& added) mutable { rows.add(corners[i], added); });
   return like ? SlicedEllMatrix(entries, *like) : SlicedEllMatrix(entries);
 }
 

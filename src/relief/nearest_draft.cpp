@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/lists.h"
 #include "geometry/plane.h"
 #include "relief/edge_weight.h"
 #include "relievo/core/parallel.h"
@@ -83,18 +84,11 @@ void NearestDraft::step() {
 }
 
 bool NearestDraft::is_good() const {
-  const std::size_t steep = parallel_reduce(
-      triangles_.size(), std::size_t{0},
-      [&](std::size_t begin, std::size_t end) {
-        std::size_t count = 0;
-        for (std::size_t t = begin; t < end; ++t) {
-          Vec2f slope = triangles_.slope(t, std::span<const float>(heights_));
-          if (!base_.empty()) slope += base_[t];
-          if (slope.norm() > good_excess * max_slope_) ++count;
-        }
-        return count;
-      },
-      std::plus<>());
+  const std::size_t steep = count_where(triangles_.size(), [&](std::size_t t) {
+    Vec2f slope = triangles_.slope(t, std::span<const float>(heights_));
+    if (!base_.empty()) slope += base_[t];
+    return slope.norm() > good_excess * max_slope_;
+  });
   return steep <= triangles_.size() / good_divisor;
 }
 

@@ -7,16 +7,14 @@
 #include "core/lists.h"
 #include "core/memory.h"
 #include "geometry/edges.h"
-#include "relief/edge_weight.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
 // Returns the Laplacian of the model's points. Points outside of the model have fixed heights.
-template <typename Link>
-Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std::vector<Index>& unknown,
-                                         std::size_t unknowns) {
+Eigen::SparseMatrix<double> laplacian_of(std::span<const WeightedLink> links,
+                                         const std::vector<Index>& unknown, std::size_t unknowns) {
   std::vector<Eigen::Triplet<double>> entries;
   for (const auto& [a, b, weight] : links) {
     for (const Index end : {a, b})
@@ -32,8 +30,7 @@ Eigen::SparseMatrix<double> laplacian_of(std::span<const Link> links, const std:
 
 // Returns the largest extent in depth among the connected components of the points. Components are measured
 // separately, because the letters of a legend may lie at several depths although each letter is level.
-template <typename Link>
-double depth_of(const Surface& surface, std::span<const Index> points, std::span<const Link> links,
+double depth_of(const Surface& surface, std::span<const Index> points, std::span<const WeightedLink> links,
                 const std::vector<Index>& unknown) {
   DisjointSets sets(points.size());
   for (const auto& [a, b, weight] : links)
@@ -57,24 +54,19 @@ Result<OwnHeights::Model> OwnHeights::model_of(const Surface& surface, float sha
     unknown[i] = static_cast<Index>(points.size());
     points.push_back(i);
   }
-  const auto is_wanted = [&](const TriangleSide& side) {
+  std::vector<WeightedLink> links = weighted_links(surface, [&](const TriangleSide& side) {
     return surface.boundary.is_inside[side.triangle] &&
            (unknown[side.from] != no_index || unknown[side.to] != no_index);
-  };
-  std::vector<Link> links;
-  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    links.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
   });
   std::vector<std::uint8_t> is_edge(unknown.size(), 0);
   for (const auto& [a, b, weight] : links)
     for (const Index end : {a, b}) is_edge[end] = unknown[end] == no_index;
   std::vector<float> distances = pick(distances_to(in_plane(surface.points), is_edge), points);
   const std::vector<Vec2> places = pick(in_plane(surface.points), points);
-  RELIEVO_TRY(
-      solver::Cholesky laplacian,
-      solver::Cholesky::factor(laplacian_of(std::span<const Link>(links), unknown, points.size()), places));
+  RELIEVO_TRY(solver::Cholesky laplacian,
+              solver::Cholesky::factor(laplacian_of(links, unknown, points.size()), places));
   laplacian.renumber(points);
-  return Model{static_cast<double>(share), depth_of(surface, points, std::span<const Link>(links), unknown),
+  return Model{static_cast<double>(share), depth_of(surface, points, links, unknown),
                std::move(points),          std::move(distances),
                std::move(links),           std::move(laplacian)};
 }

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "relief/edge_weight.h"
 #include "relievo/core/types.h"
 #include "relievo/solver/cholesky.h"
 
@@ -44,16 +45,12 @@ class OwnHeights {
              double wall_slope = std::numeric_limits<double>::infinity()) const;
 
  private:
-  struct Link {
-    Index a, b;
-    float weight;
-  };
   struct Model {
-    double share = 0;              // requested height, as a share of the relief's height
-    double depth = 0;              // largest extent in depth of a connected part, in the surface's units
-    std::vector<Index> points;     // the model's points except boundary points
-    std::vector<float> distances;  // distance of each point from the model's edge in the view plane
-    std::vector<Link> links;       // edges with one or both ends in `points`
+    double share = 0;                 // requested height, as a share of the relief's height
+    double depth = 0;                 // largest extent in depth of a connected part, in the surface's units
+    std::vector<Index> points;        // the model's points except boundary points
+    std::vector<float> distances;     // distance of each point from the model's edge in the view plane
+    std::vector<WeightedLink> links;  // edges with at least one end in `points`
     solver::Cholesky laplacian;
   };
   // The highest height of a relief. `z` is a sum; its part `scaled` is proportional to the factor by which

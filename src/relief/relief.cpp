@@ -16,7 +16,6 @@
 #include "relief/stroke_fields.h"
 #include "relief/style.h"
 #include "relievo/core/parallel.h"
-#include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/subspace.h"
 #include "relievo/scan/surface.h"

@@ -15,32 +15,16 @@ namespace {
 // silhouette, steeper normals are too inaccurate to predict depth.
 constexpr double steepest_slope = 4;
 
-struct SteppedEdge {
-  Index a, b;
-  float weight;
-};
-
-// Returns the edges that have at least one triangle side with is_wanted(side). Their weights are those of
-// equation (9), but computed from these sides alone.
-template <typename IsWanted>
-std::vector<SteppedEdge> stepped_edges(const Surface& surface, IsWanted&& is_wanted) {
-  std::vector<SteppedEdge> edges;
-  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    edges.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
-  });
-  return edges;
-}
-
-std::vector<SteppedEdge> jump_edges(const Surface& surface) {
+std::vector<WeightedLink> jump_edges(const Surface& surface) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
-  return stepped_edges(surface, [&](const TriangleSide& side) {
+  return weighted_links(surface, [&](const TriangleSide& side) {
     return jumps[side.triangle] && is_jump(surface, side.from, side.to);
   });
 }
 
-std::vector<SteppedEdge> wall_edges(const Surface& surface) {
+std::vector<WeightedLink> wall_edges(const Surface& surface) {
   const Boundary& boundary = surface.boundary;
-  return stepped_edges(surface, [&](const TriangleSide& side) {
+  return weighted_links(surface, [&](const TriangleSide& side) {
     return boundary.is_inside[side.triangle] && boundary.is_across_wall(side.from, side.to);
   });
 }
@@ -95,7 +79,7 @@ class MeansBesideWalls {
   explicit MeansBesideWalls(const Surface& surface) : numbers_(numbers_near_walls(surface, rounds)) {
     for (Index i = 0; i < numbers_.size(); ++i)
       if (numbers_[i] != no_index) means_.push_back(place_of(surface, i));
-    const auto edges = stepped_edges(surface, [&](const TriangleSide& side) {
+    const auto edges = weighted_links(surface, [&](const TriangleSide& side) {
       return numbers_[side.from] != no_index && numbers_[side.to] != no_index &&
              surface.boundary.is_inside[side.triangle] &&
              !surface.boundary.is_across_wall(side.from, side.to);
@@ -110,7 +94,7 @@ class MeansBesideWalls {
   static constexpr int rounds = 4;
 
   // Replaces each place by the mean of itself and its neighbours.
-  void average(std::span<const SteppedEdge> edges) {
+  void average(std::span<const WeightedLink> edges) {
     std::vector<Place> sums = means_;
     std::vector<float> count(means_.size(), 1);
     const auto add = [&](Index to, Index from) {
@@ -131,11 +115,11 @@ class MeansBesideWalls {
 // Returns the least-squares solution of equation (9) for given height differences. Across each of the given edges, the
 // height of b should exceed that of a by difference(a, b). Across all other edges, both heights should be equal.
 template <typename Difference>
-StepHeights solve_steps(const Boundary& boundary, std::span<const SteppedEdge> edges,
+StepHeights solve_steps(const Boundary& boundary, std::span<const WeightedLink> edges,
                         const HeightSystem& system, Difference difference) {
   if (edges.empty()) return {};
   std::vector<double> z(boundary.is_boundary.size(), 0);
-  for (const SteppedEdge& e : edges) {
+  for (const WeightedLink& e : edges) {
     const double pull = static_cast<double>(e.weight) * difference(e.a, e.b);
     z[e.a] -= pull;
     z[e.b] += pull;

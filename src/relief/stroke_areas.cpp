@@ -1,8 +1,7 @@
-#include "relief/stroke_areas.h"
+#include "relief/stroke_fields.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -11,7 +10,6 @@
 #include "geometry/neighbours.h"
 #include "geometry/outline_union.h"
 #include "relievo/core/parallel.h"
-#include "scan/inside.h"
 #include "scan/jumps.h"
 #include "scan/surface_blur.h"
 

@@ -1,11 +1,10 @@
-#include "relief/stroke_blur.h"
+#include "relief/stroke_fields.h"
 
 #include <algorithm>
 
 #include "core/lists.h"
 #include "geometry/edges.h"
 #include "relief/edge_weight.h"
-#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {
@@ -24,16 +23,8 @@ std::vector<float> point_areas(const Surface& surface) {
 }  // namespace
 
 SurfaceLinks surface_links(const Surface& surface) {
-  struct Edge {
-    Index low, high;
-    float weight;
-  };
-  std::vector<Edge> edges;
-  const auto is_wanted = [&](const TriangleSide& side) {
+  const auto edges = weighted_links(surface, [&](const TriangleSide& side) {
     return surface.boundary.is_inside[side.triangle] && !is_jump(surface, side.from, side.to);
-  };
-  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
-    edges.push_back({sides[0].low(), sides[0].high(), edge_weight(surface.points, sides)});
   });
   auto links = grouped<SurfaceLinks::Link>(static_cast<Index>(surface.points.size()), [&](auto&& add) {
     for (const auto& [low, high, weight] : edges) {

@@ -6,7 +6,6 @@
 
 #include "core/height_span.h"
 #include "core/lists.h"
-#include "relief/stroke_areas.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 

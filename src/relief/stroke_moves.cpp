@@ -1,10 +1,9 @@
-#include "relief/stroke_moves.h"
+#include "relief/stroke_fields.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/lists.h"
-#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {

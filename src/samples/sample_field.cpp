@@ -1,7 +1,6 @@
-#include "samples/sample_field.h"
+#include "samples/sample_shapes.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

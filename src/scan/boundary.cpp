@@ -26,49 +26,23 @@ double spacing_at(const Triangle& t, double rho, std::span<const float> spacing)
   return least > sparse * rho ? least : rho;
 }
 
-class BoundaryFinder {
- public:
-  BoundaryFinder(std::span<const Vec2> points, const Triangulation& mesh, double rho,
-                 std::span<const float> spacing)
-      : points_(points), mesh_(mesh) {
-    radius_.resize(mesh.triangles.size());
-    parallel_for(radius_.size(), [&](std::size_t t) {
-      const auto [a, b, c] = mesh_.triangles[t];
-      radius_[t] =
-          circumradius(points_[a], points_[b], points_[c]) / spacing_at(mesh_.triangles[t], rho, spacing);
-    });
+// Marks narrow holes as inside. A hole is a connected set of outside triangles that does not touch the hull. It is
+// narrow if the largest empty circle in it is not larger than ScanLimits::largest_hole. `radius` has the radii of the
+// triangles' empty circles, in sampling distances.
+void close_narrow_holes(const Triangulation& mesh, std::span<const double> radius,
+                        std::vector<std::uint8_t>& is_inside) {
+  DisjointSets sets(is_inside.size());
+  for (Index t = 0; t < is_inside.size(); ++t)
+    for (const Index other : mesh.neighbours[t])
+      if (other != no_index && !is_inside[t] && !is_inside[other]) sets.join(t, other);
+  std::vector<std::uint8_t> stays_outside(is_inside.size(), 0);
+  for (Index t = 0; t < is_inside.size(); ++t) {
+    const bool is_open = std::ranges::find(mesh.neighbours[t], no_index) != mesh.neighbours[t].end();
+    if (!is_inside[t] && (is_open || radius[t] > ScanLimits::largest_hole)) stays_outside[sets.find(t)] = 1;
   }
-
-  std::vector<std::uint8_t> inside() const {
-    std::vector<std::uint8_t> is_inside(radius_.size());
-    parallel_for(radius_.size(), [&](std::size_t t) { is_inside[t] = radius_[t] <= gap; });
-    close_narrow_holes(is_inside);
-    return is_inside;
-  }
-
- private:
-  // Marks narrow holes as inside. A hole is a connected set of outside triangles that does not touch the hull. It is
-  // narrow if the largest empty circle in it has at most the radius ScanLimits::largest_hole.
-  void close_narrow_holes(std::vector<std::uint8_t>& is_inside) const {
-    DisjointSets sets(is_inside.size());
-    for (Index t = 0; t < is_inside.size(); ++t)
-      for (const Index other : mesh_.neighbours[t])
-        if (other != no_index && !is_inside[t] && !is_inside[other]) sets.join(t, other);
-    std::vector<std::uint8_t> stays_outside(is_inside.size(), 0);
-    for (Index t = 0; t < is_inside.size(); ++t) {
-      const auto& around = mesh_.neighbours[t];
-      const bool is_open = std::find(around.begin(), around.end(), no_index) != around.end();
-      if (!is_inside[t] && (is_open || radius_[t] > ScanLimits::largest_hole))
-        stays_outside[sets.find(t)] = 1;
-    }
-    for (Index t = 0; t < is_inside.size(); ++t)
-      if (!is_inside[t]) is_inside[t] = !stays_outside[sets.find(t)];
-  }
-
-  std::span<const Vec2> points_;
-  const Triangulation& mesh_;
-  std::vector<double> radius_;  // radii of the triangles' empty circles, in sampling distances
-};
+  for (Index t = 0; t < is_inside.size(); ++t)
+    if (!is_inside[t]) is_inside[t] = !stays_outside[sets.find(t)];
+}
 
 }  // namespace
 
@@ -100,7 +74,16 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
 
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
                                            double rho, std::span<const float> spacing) {
-  return BoundaryFinder(points, triangulation, rho, spacing).inside();
+  std::vector<double> radius(triangulation.triangles.size());
+  std::vector<std::uint8_t> is_inside(radius.size());
+  parallel_for(radius.size(), [&](std::size_t t) {
+    const Triangle& corners = triangulation.triangles[t];
+    const auto& [a, b, c] = corners;
+    radius[t] = circumradius(points[a], points[b], points[c]) / spacing_at(corners, rho, spacing);
+    is_inside[t] = radius[t] <= gap;
+  });
+  close_narrow_holes(triangulation, radius, is_inside);
+  return is_inside;
 }
 
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho) {

@@ -41,23 +41,15 @@ std::vector<Index> outliers(const Cloud& cloud) {
 }
 
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {
-  Cloud kept;
-  kept.outlines = cloud.outlines;
-  kept.is_height_field = cloud.is_height_field;
-  kept.units_per_value = cloud.units_per_value;
-  auto next = erased.begin();
-  for (Index i = 0; i < cloud.size(); ++i) {
-    if (next != erased.end() && *next == i) {
-      ++next;
-      continue;
-    }
-    kept.points.push_back(cloud.points[i]);
-    if (cloud.has_normals()) kept.normals.push_back(cloud.normals[i]);
-    if (cloud.has_colours()) kept.colours.push_back(cloud.colours[i]);
-    if (!cloud.own_heights.empty()) kept.own_heights.push_back(cloud.own_heights[i]);
-    if (!cloud.axes.empty()) kept.axes.push_back(cloud.axes[i]);
-  }
-  return kept;
+  const std::vector<Index> kept =
+      indices_where(cloud.size(), [next = erased.begin(), &erased](Index i) mutable {
+        const bool is_erased = next != erased.end() && *next == i;
+        next += is_erased;
+        return !is_erased;
+      });
+  return {pick(cloud.points, kept), pick(cloud.normals, kept), pick(cloud.colours, kept),
+          cloud.outlines,           cloud.is_height_field,     pick(cloud.own_heights, kept),
+          cloud.units_per_value,    pick(cloud.axes, kept)};
 }
 
 }  // namespace relievo

@@ -12,15 +12,10 @@ namespace {
 constexpr double least_normal_z = 0.05;  // a slope of 20; steeper discs are drawn with this slope
 constexpr long band_rows = 64;           // rows of pixels that one task draws
 
-// Returns half the height of the disc's projection; half_width() returns half the width.
-double half_height(const Disc& disc) {
-  const double ny = static_cast<double>(disc.normal.y());
-  return disc.radius * std::sqrt(std::max(0.0, 1 - ny * ny));
-}
-
-double half_width(const Disc& disc) {
-  const double nx = static_cast<double>(disc.normal.x());
-  return disc.radius * std::sqrt(std::max(0.0, 1 - nx * nx));
+// Returns half the width of the disc's projection (axis 0), or half its height (axis 1).
+double half_extent(const Disc& disc, int axis) {
+  const double n = static_cast<double>(disc.normal[axis]);
+  return disc.radius * std::sqrt(std::max(0.0, 1 - n * n));
 }
 
 }  // namespace
@@ -65,7 +60,7 @@ void DepthBuffer::splat(const std::vector<Disc>& discs) {
   const auto band_of = [&](double y) { return std::clamp(row(y), 0L, rows_ - 1) / band_rows; };
   std::vector<std::vector<Index>> members(bands);
   for (Index i = 0; i < discs.size(); ++i) {
-    const double y = discs[i].centre.y(), half = half_height(discs[i]);
+    const double y = discs[i].centre.y(), half = half_extent(discs[i], 1);
     for (long b = band_of(y - half); b <= band_of(y + half); ++b)
       members[static_cast<std::size_t>(b)].push_back(i);
   }
@@ -81,7 +76,7 @@ void DepthBuffer::splat(const std::vector<Disc>& discs) {
 
 // Returns the pixels in the box of a disc.
 DepthBuffer::Pixels DepthBuffer::pixels_of(const Disc& disc) const {
-  const double half_x = half_width(disc), half_y = half_height(disc);
+  const double half_x = half_extent(disc, 0), half_y = half_extent(disc, 1);
   return {std::max(0L, column(disc.centre.x() - half_x)),
           std::min(columns_ - 1, column(disc.centre.x() + half_x)),
           std::max(0L, row(disc.centre.y() - half_y)), std::min(rows_ - 1, row(disc.centre.y() + half_y))};

@@ -4,7 +4,7 @@
 
 #include "geometry/neighbours.h"
 #include "geometry/plane.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {

@@ -1,5 +1,5 @@
 // Finds the side that was scanned. For the choice of the constants see docs/decisions/best-view.md.
-#include "scan/scanned_side.h"
+#include "scan/coarse_visibility.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

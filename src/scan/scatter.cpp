@@ -1,6 +1,5 @@
 // Samples a whole mesh evenly. Declared in mesh.h, tested by tests/scan/mesh_test.cpp.
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "core/angle.h"

@@ -8,7 +8,6 @@
 #include "core/angle.h"
 #include "core/quantile.h"
 #include "core/random.h"
-#include "geometry/convex_polygon.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 

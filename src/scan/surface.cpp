@@ -20,8 +20,6 @@
 #include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
 #include "scan/outlines/outline_points.h"
-#include "scan/outlines/small_patches.h"
-#include "scan/viewed_cloud.h"
 
 namespace relievo {
 namespace {
@@ -101,11 +99,6 @@ std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>&
   return both;
 }
 
-// Returns the points in an order in which neighbours in the view plane are close in memory.
-std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
-  return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
-}
-
 std::vector<double> curvature_of(const ViewedCloud& viewed, std::span<const Index> visible,
                                  const Progress* progress) {
   if (viewed.measured.has_estimated_normals())
@@ -141,7 +134,9 @@ Result<PointMeasures> find_points(ViewedCloud& viewed, Surface& surface, Progres
   std::vector<double> k(cloud.size(), 0.0);
   scatter(curvature_of(viewed, visible, progress), visible, k);
   RELIEVO_CHECK(check_cancelled(progress));
-  const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
+  // Neighbours in the view plane are to be close in memory.
+  std::vector<Index> shown = merged(visible, hole_fill);
+  shown = pick(shown, hilbert_order(in_plane(pick(cloud.points, shown))));
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
   surface.colours = pick(viewed.measured.cloud().colours, shown);

@@ -5,9 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "relievo/core/parallel.h"
+#include "core/lists.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/cloud.h"
+#include "scan/measured_cloud.h"
 
 namespace relievo {
 namespace {
@@ -119,39 +120,16 @@ Cloud cropped(const Cloud& cloud, const View& view) {
     const Vec3 p = R * of_cloud;
     return (p.array() >= least.array()).all() && (p.array() <= most.array()).all();
   };
-  Cloud part;
-  part.is_height_field = cloud.is_height_field;
-  part.units_per_value = cloud.units_per_value;
-  for (const OutlineSegment& s : cloud.outlines)
-    if (is_part(s.from) && is_part(s.to)) part.outlines.push_back(s);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (!is_part(cloud.points[i])) continue;
-    part.points.push_back(cloud.points[i]);
-    if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
-    if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
-    if (!cloud.own_heights.empty()) part.own_heights.push_back(cloud.own_heights[i]);
-    if (!cloud.axes.empty()) part.axes.push_back(cloud.axes[i]);
-  }
+  Cloud part =
+      erase_points(cloud, indices_where(cloud.size(), [&](Index i) { return !is_part(cloud.points[i]); }));
+  std::erase_if(part.outlines, [&](const OutlineSegment& s) { return !is_part(s.from) || !is_part(s.to); });
   return part;
 }
 
 Cloud in_view(const Cloud& cloud, const View& view) {
-  const Vec3 centre = bounds(cloud).centre();
-  const Eigen::Matrix3f rotation = view.R_view_model.cast<float>();
-  Cloud out;
-  out.points.resize(cloud.size());
-  out.normals.resize(cloud.normals.size());
-  out.axes.resize(cloud.axes.size());
+  Cloud out = turned(cloud, view.R_view_model, bounds(cloud).centre());
   out.colours = cloud.colours;
   out.own_heights = cloud.own_heights;
-  out.is_height_field = cloud.is_height_field && view.R_view_model == Mat3::Identity();
-  parallel_for(cloud.size(),
-               [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });
-  parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
-  parallel_for(cloud.axes.size(), [&](std::size_t i) { out.axes[i] = rotation * cloud.axes[i]; });
-  const auto turned = [&](const Vec3& p) -> Vec3 { return view.R_view_model * (p - centre); };
-  for (const OutlineSegment& s : cloud.outlines)
-    out.outlines.push_back({turned(s.from), turned(s.to), s.is_jump});
   return out;
 }
 

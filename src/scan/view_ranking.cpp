@@ -13,7 +13,6 @@
 #include "relievo/scan/normals.h"
 #include "relievo/scan/view.h"
 #include "scan/coarse_visibility.h"
-#include "scan/scanned_side.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,4 @@
-#include "scan/viewed_cloud.h"
+#include "scan/measured_cloud.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,21 +12,6 @@
 
 namespace relievo {
 namespace {
-
-// Returns the points, normals and outlines of a cloud in a view, without colours. This is the paper's
-// equation (1), up to a turn about the line of sight.
-Cloud turned(const Cloud& cloud, const Mat3& R) {
-  const Eigen::Matrix3f rotation = R.cast<float>();
-  Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
-  parallel_for(cloud.size(), [&](std::size_t i) { out.points[i] = R * cloud.points[i]; });
-  parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
-  out.axes.resize(cloud.axes.size());
-  parallel_for(cloud.axes.size(), [&](std::size_t i) { out.axes[i] = rotation * cloud.axes[i]; });
-  for (const OutlineSegment& s : cloud.outlines)
-    out.outlines.push_back({Vec3(R * s.from), Vec3(R * s.to), s.is_jump});
-  out.is_height_field = cloud.is_height_field && R == Mat3::Identity();
-  return out;
-}
 
 // Removes noise at points that may be visible. Before that, estimates their normals again from more neighbours,
 // because noise disturbs the first estimate; the signs are kept.
@@ -82,6 +67,20 @@ std::string other_view(const MeasuredCloud& measured, const View& view) {
 }
 
 }  // namespace
+
+Cloud turned(const Cloud& cloud, const Mat3& R, const Vec3& centre) {
+  const Eigen::Matrix3f rotation = R.cast<float>();
+  const auto moved = [&](const Vec3& p) -> Vec3 { return R * (p - centre); };
+  Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
+  parallel_for(cloud.size(), [&](std::size_t i) { out.points[i] = moved(cloud.points[i]); });
+  parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
+  out.axes.resize(cloud.axes.size());
+  parallel_for(cloud.axes.size(), [&](std::size_t i) { out.axes[i] = rotation * cloud.axes[i]; });
+  for (const OutlineSegment& s : cloud.outlines)
+    out.outlines.push_back({moved(s.from), moved(s.to), s.is_jump});
+  out.is_height_field = cloud.is_height_field && R == Mat3::Identity();
+  return out;
+}
 
 Surface surface_of_view(const MeasuredCloud& measured, const View& view) {
   Surface surface;

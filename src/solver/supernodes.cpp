@@ -1,4 +1,4 @@
-#include "solver/supernodes.h"
+#include "solver/cholesky_factor.h"
 
 #include <algorithm>
 #include <numeric>

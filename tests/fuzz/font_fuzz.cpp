@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "fuzz/fuzz_program.h"
-#include "lettering/font.h"
+#include "lettering/ornament_shapes.h"
 
 void run_target(std::string_view input) {
   using namespace relievo;

@@ -1,7 +1,7 @@
-#include "geometry/convex_polygon.h"
 
 #include <rapidcheck.h>
 
+#include "geometry/plane.h"
 #include "relievo/plate/outline.h"
 #include "support/plate_fronts.h"
 

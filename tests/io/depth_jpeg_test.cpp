@@ -1,5 +1,5 @@
 // Tests JPEG pictures, as depth images and as textures.
-#include "io/pictures/jpeg_header.h"
+#include "io/pictures/pictures.h"
 #include "io/texture.h"
 #include "support/format_samples.h"
 #include "support/jpeg_encoder.h"

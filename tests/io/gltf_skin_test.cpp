@@ -1,5 +1,8 @@
-#include "io/gltf/gltf_skin.h"
 
+#include <gtest/gtest.h>
+
+#include "io/gltf/gltf.h"
+#include "relievo/core/text.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
 

@@ -1,10 +1,10 @@
-#include "lettering/font.h"
 
 #include <array>
 #include <fstream>
 #include <iterator>
 #include <memory>
 
+#include "lettering/ornament_shapes.h"
 #include "support/admesh.h"
 #include "support/results.h"
 

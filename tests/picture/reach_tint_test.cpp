@@ -1,7 +1,8 @@
 // Tests that material is coloured only where a tool leaves it.
-#include "picture/reach_tint.h"
 
 #include <gtest/gtest.h>
+
+#include "picture/shading.h"
 
 namespace relievo {
 namespace {

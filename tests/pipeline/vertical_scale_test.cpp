@@ -1,5 +1,6 @@
-#include "pipeline/vertical_scale.h"
 
+
+#include "pipeline/body.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/depth_image.h"
 #include "support/results.h"

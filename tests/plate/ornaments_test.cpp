@@ -1,6 +1,6 @@
-#include "plate/ornaments.h"
 
 #include "geometry/plane.h"
+#include "plate/plate_surface.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
 #include "support/self_intersections.h"

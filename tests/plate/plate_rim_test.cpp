@@ -1,5 +1,6 @@
 
-#include "geometry/convex_polygon.h"
+#include "geometry/plane.h"
+
 #include "support/plate_fronts.h"
 
 namespace relievo {

@@ -1,10 +1,12 @@
-#include "plate/front/sample_squares.h"
+
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "support/triangles.h"
+
+#include "plate/front/sample_front.h"
 
 namespace relievo {
 namespace {

@@ -1,6 +1,12 @@
-#include "relief/stroke_areas.h"
 
-#include "support/strokes.h"
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "relief/stroke_fields.h"
+#include "support/shapes.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {

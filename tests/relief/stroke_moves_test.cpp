@@ -1,4 +1,3 @@
-#include "relief/stroke_moves.h"
 
 #include <Eigen/QR>
 

@@ -1,4 +1,3 @@
-#include "samples/sample_field.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <numbers>
 
 #include "relievo/core/parallel.h"
+#include "samples/sample_shapes.h"
 
 namespace relievo::field {
 namespace {

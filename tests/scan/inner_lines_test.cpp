@@ -1,5 +1,6 @@
-#include "scan/outlines/inner_lines.h"
 
+
+#include "scan/outlines/outlines.h"
 #include "support/surfaces.h"
 
 namespace relievo {

@@ -1,9 +1,10 @@
-#include "scan/outlines/joined_jumps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "scan/outlines/outlines.h"
 
 namespace relievo {
 namespace {

@@ -1,9 +1,10 @@
-#include "scan/outlines/row_smoothing.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
+
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,3 @@
-#include "scan/scanned_side.h"
 
 #include <gtest/gtest.h>
 
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "relievo/scan/normals.h"
+#include "scan/coarse_visibility.h"
 #include "support/shapes.h"
 
 namespace relievo {

@@ -1,7 +1,7 @@
-#include "scan/outlines/small_patches.h"
 
 #include <gtest/gtest.h>
 
+#include "scan/outlines/outline_points.h"
 #include "support/shapes.h"
 
 namespace relievo {

@@ -6,8 +6,6 @@
 #include <array>
 
 #include "io/formats.h"
-#include "io/gltf/gltf_skin.h"
-#include "io/gltf/gltf_textures.h"
 #include "io/polygon.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
@@ -319,9 +317,6 @@ class GltfReader {
   // Adds the vertices. Each is transformed by its own transform in `posed` or, if that is empty, by
   // `transform`.
   void add_vertices(const Vertices& all, const Transform& transform, const std::vector<Transform>& posed) {
-    const auto byte = [](double v) {
-      return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, 255 * v + .5)) : std::uint8_t{0};
-    };
     const auto turn_of = [](const Transform& by) -> Mat3 { return by.linear().inverse().transpose(); };
     const Mat3 turn = turn_of(transform);
     for (std::size_t i = 0; i < all.count(); ++i)
@@ -330,8 +325,8 @@ class GltfReader {
       normals_.push_back(unit_normal((posed.empty() ? turn : turn_of(posed[i])) * vector_at(all.normals, i)));
     colours_.insert(colours_.end(), all.material_colours.begin(), all.material_colours.end());
     for (std::size_t i = 0; i < all.colours.count(); ++i) {
-      const Vec3 colour = vector_at(all.colours, i);
-      colours_.push_back({byte(colour.x()), byte(colour.y()), byte(colour.z())});
+      const Vec3 colour = 255 * vector_at(all.colours, i);
+      colours_.push_back({as_byte(colour.x()), as_byte(colour.y()), as_byte(colour.z())});
     }
   }
 

@@ -2,13 +2,16 @@
 // tests/io/gltf_test.cpp and tests/io/mesh_formats_test.cpp.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "io/numbers.h"
 #include "io/readers.h"
+#include "io/texture.h"
 
 namespace relievo::io {
 
@@ -91,5 +94,36 @@ const Json* object_in(const Json& json, const char* name);
 // Returns the relative file name in a URI, with escapes (%20) decoded. Returns nothing if the name may lead
 // out of the folder: an absolute path, a scheme such as http:, or a part '..'.
 std::optional<std::string> name_in_uri(std::string_view uri);
+
+// Returns the transform of a node relative to its parent; nothing if the node's numbers are invalid.
+std::optional<Eigen::Affine3d> transform_of(const Json& node);
+
+// Returns the transform of each of `count` vertices with these attributes: the weighted sum of its joints'
+// transforms. Returns no transforms if there are no joints or weights. Errors: kind input, at `place`.
+Result<std::vector<Eigen::Affine3d>> skinned_transforms(const Source& source, GltfFile& file,
+                                                        std::size_t skin, const Json& attributes,
+                                                        std::size_t count, const std::string& place);
+
+class GltfTextures {
+ public:
+  // Reads the base colour textures of all materials. `file` must outlive the object.
+  explicit GltfTextures(GltfFile& file);
+
+  // Returns whether any texture can be read. If not, materials have no effect on colours.
+  bool has_any() const { return !textures_.empty(); }
+
+  // Returns the colours of the `count` vertices of a primitive with these attributes.
+  std::vector<Colour> colours(const Json& primitive, const Json& attributes, std::size_t count) const;
+
+  // Returns remarks on textures that could not be read.
+  const std::vector<std::string>& remarks() const { return remarks_; }
+
+ private:
+  void read_texture(std::size_t number);
+
+  GltfFile& file_;
+  std::map<std::size_t, Texture> textures_;  // by texture index
+  std::vector<std::string> remarks_;
+};
 
 }  // namespace relievo::io

@@ -1,4 +1,4 @@
-#include "io/gltf/gltf_skin.h"
+#include "io/gltf/gltf.h"
 
 #include "relievo/core/text.h"
 

@@ -1,4 +1,4 @@
-#include "io/gltf/gltf_textures.h"
+#include "io/gltf/gltf.h"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,4 @@
 // Reads uncompressed Windows BMP pictures: palettes of 1, 4 and 8 bits, colours of 24 and 32 bits.
-#include <algorithm>
 #include <cstdlib>
 
 #include "io/pictures/pictures.h"

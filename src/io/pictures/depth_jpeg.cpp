@@ -10,7 +10,6 @@
 
 #include <jerror.h>
 
-#include "io/pictures/jpeg_header.h"
 #include "io/pictures/pictures.h"
 #include "io/text.h"
 
@@ -100,9 +99,7 @@ Result<void> check_header(const Source& source, const JpegHeader& header) {
         {}, cat("expected a JPEG picture of grey or of red, green and blue, found ", header.channels,
                 header.channels == 4 ? " channels, as CMYK of prints has" : " channels", "; save it as PNG"));
   RELIEVO_CHECK(check_room(source, {header.width, header.height, 0, 0}));
-  if (pixels / best_packing <= source.bytes.size()) return {};
-  return source.error({}, cat("expected more data for ", pixels, " pixels, found ", source.bytes.size(),
-                              " bytes; the file is cut, get it anew"));
+  return check_packing(source, pixels, pixels);
 }
 
 }  // namespace

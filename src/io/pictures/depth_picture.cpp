@@ -37,6 +37,12 @@ Result<void> check_room(const Source& source, const StoredPixels& stored) {
                                                  "; the file is cut, get it anew"));
 }
 
+Result<void> check_packing(const Source& source, std::uint64_t pixels, std::uint64_t bytes) {
+  if (bytes / best_packing <= source.bytes.size()) return {};
+  return source.error({}, cat("expected more data for ", pixels, " pixels, found ", source.bytes.size(),
+                              " bytes; the file is cut, get it anew"));
+}
+
 Result<void> check_channel(const Source& source, const PictureChannels& wanted, std::size_t channels) {
   if (wanted.channel <= static_cast<int>(channels)) return {};
   return source.error({}, cat("expected a channel from 1 to ", channels, ", found ", wanted.channel));

@@ -75,9 +75,7 @@ class Reader {
     const std::size_t pixels = std::size_t{header_.width} * header_.height;
     if (pixels > most_pixels)
       return source_.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
-    if (pixels * colours_ * value_size_ / best_packing > source_.bytes.size())
-      return source_.error({}, cat("expected more data for ", pixels, " pixels, found ", source_.bytes.size(),
-                                   " bytes; the file is cut, get it anew"));
+    RELIEVO_CHECK(check_packing(source_, pixels, pixels * colours_ * value_size_));
     std::vector<std::uint8_t> values(pixels * channels_ * value_size_);
     int failure = spng_decode_image(spng_.get(), values.data(), values.size(), format_,
                                     has_transparent_colour_ ? SPNG_DECODE_TRNS : 0);

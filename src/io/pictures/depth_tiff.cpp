@@ -10,7 +10,6 @@
 #include "io/pictures/geotiff.h"
 #include "io/pictures/pictures.h"
 #include "io/pictures/tiff_bytes.h"
-#include "io/pictures/tiff_samples.h"
 #include "io/text.h"
 #include "relievo/core/text.h"
 
@@ -289,9 +288,7 @@ Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& 
   Layout layout = layout_of(file.handle());
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
   if (pixels > most_pixels) return source.error({}, cat("expected at most 134217728 pixels, found ", pixels));
-  if (pixels / best_packing > source.bytes.size())
-    return source.error({}, cat("expected more data for ", pixels, " pixels, found ", source.bytes.size(),
-                                " bytes; the file is cut, get it anew"));
+  RELIEVO_CHECK(check_packing(source, pixels, pixels));
   RELIEVO_CHECK(check_samples(source, layout, channels));
   const bool is_fraction = layout.samples.kind == SampleKind::fraction;
   DepthImage image{{}, is_fraction ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};

@@ -1,4 +1,4 @@
-#include "io/pictures/jpeg_header.h"
+#include "io/pictures/pictures.h"
 
 #include <algorithm>
 #include <optional>

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "io/readers.h"
 #include "relievo/core/text.h"
@@ -55,6 +57,9 @@ struct StoredPixels {
 
 // Returns an error if there are too many pixels, or more than the file contains.
 Result<void> check_room(const Source& source, const StoredPixels& stored);
+
+// Returns an error if the file is smaller than best_packing allows for pixels that take so many bytes.
+Result<void> check_packing(const Source& source, std::uint64_t pixels, std::uint64_t bytes);
 
 // Red, green and blue of a pixel; in a grey picture only the first value is used.
 using PixelColour = std::array<float, 3>;
@@ -114,5 +119,14 @@ inline constexpr std::array picture_formats = {
     PictureFormat{"BMP", ".bmp", is_bmp, read_depth_bmp},
     PictureFormat{"Esri grid", "", is_esri_grid, read_esri_grid},
     PictureFormat{"table of heights", ".dat", is_height_table, read_height_table}};
+
+struct JpegHeader {
+  std::uint64_t width = 0, height = 0;  // 0 if the bytes have no frame
+  std::uint64_t channels = 0;
+  int orientation = 1;  // Exif tag, see turn_upright()
+};
+
+// Returns the information in the segments up to the first frame. `bytes` is a JPEG or the beginning of one.
+JpegHeader find_jpeg_header(std::string_view bytes);
 
 }  // namespace relievo::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace relievo::io {
@@ -14,7 +15,13 @@ struct SampleFormat {
 };
 
 // Returns the number that 16 bits represent (IEEE 754 half precision).
-float half_precision(std::uint64_t bits);
+inline float half_precision(std::uint64_t bits) {
+  const auto exponent = static_cast<int>(bits >> 10 & 31), fraction = static_cast<int>(bits & 1023);
+  const float sign = bits >> 15 & 1 ? -1.F : 1.F;
+  if (exponent == 31) return fraction ? std::nanf("") : sign * HUGE_VALF;
+  if (exponent == 0) return sign * std::ldexp(static_cast<float>(fraction), -24);
+  return sign * std::ldexp(static_cast<float>(1024 + fraction), exponent - 25);
+}
 
 // Returns the number that the lowest bits represent: integers of 1 to 64 bits, in two's complement if signed,
 // or floating-point numbers of 16, 32 and 64 bits (IEEE 754).

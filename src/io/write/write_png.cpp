@@ -8,7 +8,6 @@
 
 #include "relievo/core/image.h"
 #include "relievo/io/write.h"
-#include "relievo/picture/preview.h"
 
 namespace relievo {
 namespace {

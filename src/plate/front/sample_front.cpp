@@ -13,7 +13,6 @@
 #include "geometry/raster.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
-#include "plate/front/sample_squares.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
@@ -105,7 +104,8 @@ class Sampler {
     thin_out_band();
     RELIEVO_CHECK(check_cancelled(progress));
     add_squares();
-    keep_within_range();
+    for (Vec3& p : out_.points) p.z() = std::clamp(p.z(), low_, high_);
+
     RELIEVO_CHECK(check_cancelled(progress));
     return triangulated();
   }
@@ -279,10 +279,6 @@ class Sampler {
             is_taken[grid_.triangle.index(x, y)] = 1;
     }
     return is_taken;
-  }
-
-  void keep_within_range() {
-    for (Vec3& p : out_.points) p.z() = std::clamp(p.z(), low_, high_);
   }
 
   HeightFieldMesh triangulated() {

@@ -1,4 +1,4 @@
-#include "plate/front/sample_squares.h"
+#include "plate/front/sample_front.h"
 
 #include <algorithm>
 #include <cmath>

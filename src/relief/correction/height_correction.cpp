@@ -10,7 +10,6 @@
 #include "geometry/plane.h"
 #include "relief/correction/soft_clip.h"
 #include "relievo/core/parallel.h"
-#include "scan/inside.h"
 #include "scan/jumps.h"
 
 namespace relievo {

@@ -5,14 +5,10 @@
 #include "geometry/neighbours.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
-#include "scan/inside.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
-
-double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return cross(b - a, c - a);
-}
 
 // Locates points by walking through the triangles, starting from the last triangle found.
 class Walker {

@@ -1,4 +1,4 @@
-#include "scan/depth/depth_values.h"
+#include "scan/depth/depth_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,5 @@
-#include "scan/outlines/inner_lines.h"
+#include "scan/jumps.h"
+#include "scan/outlines/outlines.h"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include "core/simd.h"
 #include "geometry/plane.h"
 #include "geometry/point_set.h"
-#include "scan/inside.h"
 
 namespace relievo {
 namespace {

@@ -1,7 +1,6 @@
-#include "scan/outlines/joined_jumps.h"
+#include "scan/outlines/outlines.h"
 
 #include <algorithm>
-#include <ranges>
 #include <tuple>
 
 namespace relievo {

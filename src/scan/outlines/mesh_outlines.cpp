@@ -23,11 +23,6 @@ struct ContourEdge {
   Index from, to;
 };
 
-bool has_area(std::span<const Vec3> points, const Triangle& t) {
-  const Vec2 a = points[t[0]].head<2>();
-  return cross(points[t[1]].head<2>() - a, points[t[2]].head<2>() - a) > 0;
-}
-
 // Returns the edges that have more triangles on one side than on the other. Triangles without area in the
 // view plane are ignored.
 std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<const Triangle> triangles) {
@@ -38,7 +33,8 @@ std::vector<ContourEdge> contour_edges(std::span<const Vec3> points, std::span<c
   const std::vector<Index> place = first_coincident(points);
   const auto sides = grouped<Side, std::size_t>(points.size(), [&](auto&& add) {
     for (const Triangle& t : triangles) {
-      if (!has_area(points, t)) continue;
+      const auto at = [&](std::size_t i) -> Vec2 { return points[t[i]].head<2>(); };
+      if (!(twice_area(at(0), at(1), at(2)) > 0)) continue;
       for (std::size_t i = 0; i < 3; ++i) {
         const Index a = place[t[i]], b = place[t[(i + 1) % 3]];
         if (a != b) add(std::min(a, b), Side{std::max(a, b), a < b ? 1 : -1});

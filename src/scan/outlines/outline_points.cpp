@@ -10,11 +10,9 @@
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
-#include "scan/inside.h"
-#include "scan/outlines/inner_lines.h"
-#include "scan/outlines/joined_jumps.h"
+#include "scan/jumps.h"
 #include "scan/outlines/outlines.h"
-#include "scan/outlines/row_smoothing.h"
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 namespace {
@@ -37,8 +35,7 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
     const double shift = std::fmod(row, 2) == 0 ? 0 : .5;
     for (double k = std::ceil(low.x() / spacing - shift); (k + shift) * spacing <= high.x(); ++k) {
       const Vec2 p((k + shift) * spacing, row * row_height);
-      if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0)
-        places.push_back(p);
+      if (is_within(p, triangle)) places.push_back(p);
     }
   }
 }

@@ -10,6 +10,7 @@
 #include "relievo/scan/surface.h"
 
 namespace relievo {
+
 // Replaces outlines found from samples of a mesh by the mesh's exact outlines.
 class ExactOutlines {
  public:
@@ -96,5 +97,15 @@ std::vector<OutlineCurve> find_outlines(const Surface& surface, const PlanePoint
 
 // Returns the segments of outlines. Segment::curve is the index of the outline.
 std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines);
+
+// Adds inner lines to the outlines of a surface, as jumps with the higher side on the left. Jumps that end inside the
+// surface are continued as long as the surface bends or steps. Lines keep a distance of 2 rho from other outlines.
+// New lines shorter than 8 rho are left out.
+void add_inner_lines(const Surface& surface, const PlanePoints& plane, std::vector<OutlineCurve>& outlines);
+
+// Joins two open jumps if one ends at most 4 rho before the other begins and both have the direction of the gap. Such
+// gaps occur where the step in depth is close to the least step of a jump. Silhouettes and closed jumps stay as they
+// are.
+void join_jumps(std::vector<OutlineCurve>& outlines, double rho);
 
 }  // namespace relievo

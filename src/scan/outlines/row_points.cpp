@@ -137,26 +137,18 @@ std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, cons
   return RowMaker(outlines, grid, rho, taken).make();
 }
 
-SideInterpolation::SideInterpolation(const Input& input)
-    : surface_(input.surface),
-      measures_(input.measures),
-      grid_(input.grid),
-      outline_distance_(input.outline_distance),
-      on_outline_(static_cast<float>(half_wall * input.surface.rho)),
-      plane_(input.plane.places),
-      tree_(input.plane.tree) {}
-
 std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowPoint> rows) const {
   std::vector<Value> values(rows.size());
   const auto ball = [&](std::size_t r) -> NearSearch<Vec2>::Ball {
-    return {rows[r].at, fit_radius * surface_.rho};
+    return {rows[r].at, fit_radius * in_.surface.rho};
   };
   parallel_ranges(rows.size(), 256, [&](std::size_t begin, std::size_t end) {
-    NearSearch<Vec2> search(tree_, plane_);
+    NearSearch<Vec2> search(in_.plane.tree, in_.plane.places);
     Around around;
     search.each(begin, end, ball, [&](std::size_t r, std::span<const Index> near) {
       around.matches.clear();
-      for (const Index i : near) around.matches.emplace_back(i, (plane_[i] - rows[r].at).squaredNorm());
+      for (const Index i : near)
+        around.matches.emplace_back(i, (in_.plane.places[i] - rows[r].at).squaredNorm());
       values[r] = at(rows[r], around);
     });
   });
@@ -166,16 +158,17 @@ std::vector<SideInterpolation::Value> SideInterpolation::at(std::span<const RowP
 // Returns the values at a new point. around.matches has the points within the radius of a fit. If too few of them can
 // be used, points farther away are added.
 SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around) const {
-  double radius = fit_radius * surface_.rho;
+  double radius = fit_radius * in_.surface.rho;
   std::vector<Match>& matches = around.matches;
   leave_same_side(p, radius, around);
   for (int attempt = 1; attempt < 3 && matches.size() < 6; ++attempt) {
-    tree_.within(p.at, radius *= 1.6, matches);
+    in_.plane.tree.within(p.at, radius *= 1.6, matches);
     leave_same_side(p, radius, around);
   }
   // In a sliver between two outlines all points may be on these outlines. Then a new point of the silhouette is
   // interpolated from them. If it were left out, long triangles would cross the sliver.
-  if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
+  if (matches.empty() && p.place == Place::silhouette)
+    in_.plane.tree.within(p.at, fit_radius * in_.surface.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
     return std::pair(a.second, a.first) < std::pair(b.second, b.first);
@@ -187,23 +180,24 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p, Around& around
 // left out, because they may belong to either side. Noise moves some points across an outline. So points are also
 // left out if there is a jump between them and the point that is farthest from all outlines.
 void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around& around) const {
+  const auto on_outline = static_cast<float>(half_wall * in_.surface.rho);
   std::vector<Match>& matches = around.matches;
   Index safest = no_index;
-  around.lines.begin(grid_, p.seen_from, radius + (p.seen_from - p.at).norm());
+  around.lines.begin(in_.grid, p.seen_from, radius + (p.seen_from - p.at).norm());
   std::erase_if(matches, [&](const auto& m) {
-    const float distance = outline_distance_[m.first];
-    if (distance < on_outline_) return true;
-    const Vec2& place = plane_[m.first];
+    const float distance = in_.outline_distance[m.first];
+    if (distance < on_outline) return true;
+    const Vec2& place = in_.plane.places[m.first];
     constexpr double rounding = 1e-6;
     // The distance is infinite at points far from outlines and at points outside.
     const bool is_clear = std::isfinite(distance) &&
                           (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && around.lines.is_crossed(place)) return true;
-    if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
+    if (safest == no_index || distance > in_.outline_distance[safest]) safest = m.first;
     return false;
   });
   std::erase_if(matches,
-                [&](const auto& m) { return m.first != safest && is_jump(surface_, safest, m.first); });
+                [&](const auto& m) { return m.first != safest && is_jump(in_.surface, safest, m.first); });
   leave_same_face(matches);
 }
 
@@ -212,7 +206,7 @@ void SideInterpolation::leave_same_face(std::vector<Match>& matches) const {
   if (matches.empty()) return;
   const Index nearest = std::ranges::min_element(matches, {}, &Match::second)->first;
   const auto is_other = [&](const auto& m) {
-    return surface_.normals[m.first].dot(surface_.normals[nearest]) < least_likeness;
+    return in_.surface.normals[m.first].dot(in_.surface.normals[nearest]) < least_likeness;
   };
   const std::ptrdiff_t others = std::ranges::count_if(matches, is_other);
   if (static_cast<std::ptrdiff_t>(matches.size()) - others >= least_face_points)
@@ -223,20 +217,21 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
                                                          std::span<const Match> matches) const {
   LinearField<3> field(p.at, radius);
   for (const auto& [j, distance_sq] : matches) {
-    const Vec3f& n = surface_.normals[j];
-    field.add(plane_[j], Vec3(static_cast<double>(n.x()), static_cast<double>(n.y()), measures_.k[j]));
+    const Vec3f& n = in_.surface.normals[j];
+    field.add(in_.plane.places[j],
+              Vec3(static_cast<double>(n.x()), static_cast<double>(n.y()), in_.measures.k[j]));
   }
   const auto fit = field.fitted();
   Value value;
   value.is_known = true;
   const Vec3 normal = normal_with(fit.value.head<2>());
   value.normal = normal.cast<float>();
-  value.k = std::clamp(fit.value.z(), -1 / surface_.rho, 1 / surface_.rho);
+  value.k = std::clamp(fit.value.z(), -1 / in_.surface.rho, 1 / in_.surface.rho);
   value.point << p.at, depth_at(p.at, normal, matches);
   const Index nearest = matches.front().first;
-  if (!surface_.colours.empty()) value.colour = surface_.colours[nearest];
-  if (!surface_.own_heights.empty()) value.own_height = surface_.own_heights[nearest];
-  if (!measures_.spacing.empty()) value.spacing = measures_.spacing[nearest];
+  if (!in_.surface.colours.empty()) value.colour = in_.surface.colours[nearest];
+  if (!in_.surface.own_heights.empty()) value.own_height = in_.surface.own_heights[nearest];
+  if (!in_.measures.spacing.empty()) value.spacing = in_.measures.spacing[nearest];
   return value;
 }
 
@@ -247,10 +242,10 @@ double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span
   double depths = 0, weights = 0;
   for (std::size_t m = 0; m < count; ++m) {
     const auto& [j, distance_sq] = matches[m];
-    const Vec3 mean = normal + surface_.normals[j].cast<double>();
-    const double rise = -mean.head<2>().dot(at - plane_[j]) / std::max(mean.z(), 2 * least_nz);
-    const double weight = 1 / (distance_sq + .01 * surface_.rho * surface_.rho);
-    depths += weight * (surface_.points[j].z() + rise);
+    const Vec3 mean = normal + in_.surface.normals[j].cast<double>();
+    const double rise = -mean.head<2>().dot(at - in_.plane.places[j]) / std::max(mean.z(), 2 * least_nz);
+    const double weight = 1 / (distance_sq + .01 * in_.surface.rho * in_.surface.rho);
+    depths += weight * (in_.surface.points[j].z() + rise);
     weights += weight;
   }
   return depths / weights;

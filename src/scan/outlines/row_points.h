@@ -67,7 +67,7 @@ class SideInterpolation {
     const SegmentGrid& grid;
     std::span<const float> outline_distance;  // per point: distance from the nearest outline
   };
-  explicit SideInterpolation(const Input& input);
+  explicit SideInterpolation(const Input& input) : in_(input) {}
 
   struct Value {
     bool is_known = false;
@@ -98,13 +98,14 @@ class SideInterpolation {
   Value interpolated(const RowPoint& p, double radius, std::span<const Match> matches) const;
   double depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const;
 
-  const Surface& surface_;
-  const PointMeasures& measures_;
-  const SegmentGrid& grid_;
-  std::span<const float> outline_distance_;
-  float on_outline_;
-  const std::vector<Vec2>& plane_;
-  const KdTree<Vec2>& tree_;
+  Input in_;
 };
+
+// Returns the values at points of rows, smoothed along each row. Depth, normal and curvature come from a
+// quadratic that is fitted to the points of the same row within 3 rho; outliers have little weight. Points
+// without a row and points with unknown values do not change.
+std::vector<SideInterpolation::Value> smoothed_along_rows(std::span<const RowPoint> points,
+                                                          std::vector<SideInterpolation::Value> values,
+                                                          double rho);
 
 }  // namespace relievo

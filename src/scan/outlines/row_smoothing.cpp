@@ -1,8 +1,7 @@
-#include "scan/outlines/row_smoothing.h"
+#include "scan/outlines/row_points.h"
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "core/simd.h"

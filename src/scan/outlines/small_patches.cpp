@@ -1,4 +1,5 @@
-#include "scan/outlines/small_patches.h"
+#include "scan/jumps.h"
+#include "scan/outlines/outline_points.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +7,6 @@
 
 #include "core/disjoint_sets.h"
 #include "core/lists.h"
-#include "scan/inside.h"
 #include "scan/outlines/outlines.h"
 
 namespace relievo {

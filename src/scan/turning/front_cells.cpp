@@ -1,4 +1,4 @@
-#include "scan/turning/front_cells.h"
+#include "scan/turning/turned_surface.h"
 
 #include <algorithm>
 #include <array>

@@ -1,12 +1,12 @@
 // Clears the crumbs of drawn fronts, closes small holes, and marks the ends of the surface. Declared in
-// front_cells.h, tested by tests/scan/turning_test.cpp.
+// turned_surface.h, tested by tests/scan/turning_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "core/disjoint_sets.h"
 #include "relievo/core/parallel.h"
-#include "scan/turning/front_cells.h"
+#include "scan/turning/turned_surface.h"
 
 namespace relievo {
 namespace {
