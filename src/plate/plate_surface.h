@@ -1,5 +1,5 @@
-// Makes the front side of a plate: relief, ground and rim. Walls and bottom are added elsewhere. Tested
-// by plate_base_test.
+// Makes the front side of a plate: relief, ground and rim. Walls and bottom are added elsewhere.
+// Tested by plate_base_test.
 #pragma once
 
 #include <limits>
