@@ -1,4 +1,3 @@
-
 #include <rapidcheck.h>
 
 #include "geometry/plane.h"

@@ -1,4 +1,3 @@
-
 #include "relievo/io/write.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"

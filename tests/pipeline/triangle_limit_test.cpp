@@ -1,4 +1,3 @@
-
 #include "geometry/plane.h"
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"

@@ -1,5 +1,3 @@
-
-
 #include "pipeline/body.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/depth_image.h"

@@ -1,4 +1,3 @@
-
 #include "geometry/plane.h"
 #include "plate/plate_surface.h"
 #include "support/admesh.h"

@@ -1,4 +1,3 @@
-
 #include "geometry/plane.h"
 
 #include "support/plate_fronts.h"

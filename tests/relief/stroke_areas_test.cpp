@@ -1,12 +1,6 @@
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "relief/stroke_fields.h"
-#include "support/shapes.h"
-#include "support/surfaces.h"
+
+#include "support/strokes.h"
 
 namespace relievo {
 namespace {

@@ -1,5 +1,3 @@
-
-
 #include "scan/outlines/outlines.h"
 #include "support/surfaces.h"
 

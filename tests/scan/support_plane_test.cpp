@@ -1,4 +1,3 @@
-
 #include "core/angle.h"
 #include "relievo/scan/surface.h"
 #include "scan/measured_cloud.h"
