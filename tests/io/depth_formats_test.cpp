@@ -59,16 +59,16 @@ TEST(DepthNpy, ReadsAllNumbersInBothOrders) {
 
 TEST(DepthNpy, SaysWhichArraysAreNoPictures) {
   const std::string whole = npy("<f4", values(in_type<float>)),
-                    shape = ": expected an array of rows and columns, found the shape ";
+                    shape = ": expected an array of rows and columns, found the shape (";
   expect_image_messages(
       {{npy("<c8", ""),
         ": expected an array of numbers, found the type '<c8'; in Python astype('float32') converts it"},
        {npy("[('x', '<f4'), ('y', '<f4'), ('z', '<f4')]", ""),
         ": expected an array of numbers, found records; in Python np.stack([a['x'], a['y'], a['z']], -1) is "
         "an array of points"},
-       {npy("|u1", "", "5, 6, 3"), shape + "(5, 6, 3); in Python a[..., 0] is one of its channels"},
+       {npy("|u1", "", "5, 6, 3"), shape + "5, 6, 3); in Python a[..., 0] is one of its channels"},
        {npy("<f4", "", "3, 5, 6"),
-        shape + "(3, 5, 6); in Python np.moveaxis(a, 0, -1) makes points of it, and a[0] is one of its "
+        shape + "3, 5, 6); in Python np.moveaxis(a, 0, -1) makes points of it, and a[0] is one of its "
                 "channels"},
        {npy("<f4", "", ""), ": expected an array with rows, found the shape ()"},
        {whole.substr(0, 9), ", byte 8: expected the header of an array, found the end of the file"},
