@@ -1,4 +1,4 @@
-// How the program gets memory, and how it ends when there is none left. Tested by tests/cli/faults.
+// Requests memory in huge pages, and ends the program when no memory is left. Tested by tests/cli/faults.
 #pragma once
 
 namespace relievo::app::cli {

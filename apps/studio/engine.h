@@ -1,4 +1,4 @@
-// The native engine of a document: reads one scan, makes its relief, and draws both.
+// Reads the scan of a document, makes its relief, and draws both. It is the engine of the native program.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,4 @@
-// The web server of the studio. It serves the files of the page and answers the page's requests, only on this
-// machine.
+// Serves the files of the studio's page and answers the page's requests, only on this machine.
 #pragma once
 
 #include <chrono>

@@ -69,7 +69,7 @@ export interface Report {
   [key: string]: unknown;
 }
 
-// How to write a height map. The flags of the command line have the same meaning.
+// Says how a height map is written. The flags of the command line have the same meaning.
 export interface HeightMapFileOptions {
   size?: number; // longer side in pixels
   pixel?: number | string; // exact size of a pixel; replaces `size`
