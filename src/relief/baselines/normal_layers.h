@@ -1,4 +1,4 @@
-// A baseline that weights two layers of the normals. Source: Wei, Tian, Pang, Wang, Pang, Wang, Qin and Heng,
+// Computes the normals of a baseline that weights two layers of normals. Source: Wei, Tian, Pang, Wang, Pang, Wang, Qin and Heng,
 // Bas-relief modeling from normal layers, IEEE Transactions on Visualization and Computer Graphics 25(4),
 // 2019.
 //

@@ -143,8 +143,8 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c, the heights of the control points
 }
 
-// Where the reference height is below a thousandth of the height range, it is too small as a divisor.
-// There the ratio fades to the common ratio of all control points.
+// Computes the reference heights. A reference height below a thousandth of the height range is too small as a
+// divisor, so the ratio of such a point fades to the common ratio of all control points.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
