@@ -15,7 +15,7 @@ namespace relievo {
 namespace {
 
 constexpr double pixel_side = 0.5;  // width of the depth buffer's pixels, in rho; discs are wider
-// Of points closer together than this in the view plane, in rho, only the nearest to the viewer is kept.
+// Points closer together than this in the view plane, in rho, coincide: only the nearest to the viewer is kept.
 constexpr double coincidence_distance = .01;
 // Connected sets with fewer visible points than this count as floating noise.
 constexpr std::size_t smallest_fragment = 32;

@@ -26,7 +26,8 @@ constexpr std::size_t least_points = 4;  // least number of points on each side 
 // below this.
 constexpr float bent_below = .75F;
 
-// How a surface changes across a line through a position. The normals on each side are fitted by a linear function.
+// Measures the change of a surface across a line through a position. A linear function is fitted to the normals on each
+// side.
 struct Change {
   double left_over = 1;  // misfit of the fits of both sides, as a share of the misfit of one common fit
   // Scatter around the means of both sides, as a share of the scatter around the common mean.
