@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// By Euler's formula, the number of edges is the number of points plus the number of triangles minus one.
+// The number of edges is the number of points plus the number of triangles minus one (Euler's formula).
 TEST(Edges, HaveTheSidesOfOneOrTwoTriangles) {
   const std::vector<Vec2> points = random_points(500, 3);
   const Triangulation mesh = delaunay(points);

@@ -31,7 +31,7 @@ TEST(PaperCompression, BoundaryWeightIsEquation7) {
   EXPECT_NEAR(boundary_weight(2, 2), 1 - std::exp(-1.0), 1e-15);
 }
 
-// By equation (5) the slope is perpendicular to the compressed normal n~: n~ . (1, 0, dz/dx) = 0, and likewise for y.
+// The slope is perpendicular to the compressed normal n~, see equation (5): n~ . (1, 0, dz/dx) = 0, and likewise for y.
 TEST(PaperCompression, SlopeIsThatOfEquation5) {
   const Vec3 normal = Vec3(.3, -.5, .6).normalized();
   for (const double w : {0.0, .4, 1.0}) {

@@ -30,7 +30,7 @@ struct Mapped {
   }
 };
 
-// Where heights are below 2 % of the largest height, the ratio is not well defined, so it is damped. Here
+// The ratio is damped at heights below 2 % of the largest height, because it is not well defined there. Here
 // the lowest height is 40 % of the largest one, so damping causes an error of only 0.25 %.
 TEST(PaperMapping, KeepsARatioThatIsTheSameEverywhere) {
   const Mapped m;
