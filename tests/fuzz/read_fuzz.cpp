@@ -1,8 +1,6 @@
-// Fuzz targets of the readers, one per family of formats. RELIEVO_FUZZ_FAMILY chooses one of the lists of file names
-// below. scripts/fuzz finds the list by the word before the colon in the comment at its end. The first byte of an input
-// chooses a name from the list; the rest is the file. In texts of meshes a zero byte ends the file, and the files
-// beside it follow: first materials or a buffer, up to another zero byte, then a picture.
-#include <array>
+// The fuzz target of all readers. The first byte of an input chooses the channels of a picture. The ending of the
+// file's name follows, up to the end of the line, such as "obj"; the rest is the file. In OBJ and glTF a zero byte ends
+// the file, and the files beside it follow: first materials or a buffer, up to another zero byte, then a picture.
 #include <cstdlib>
 
 #include "fuzz/fuzz_program.h"
@@ -13,19 +11,6 @@
 namespace {
 
 using namespace relievo;
-
-#if RELIEVO_FUZZ_FAMILY == 0
-constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply", "a.model"};  // mesh: meshes
-#elif RELIEVO_FUZZ_FAMILY == 1
-constexpr std::array names = {"a.gltf", "a.glb"};  // gltf: scenes with the files beside them
-#elif RELIEVO_FUZZ_FAMILY == 2
-constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv", "a.ptx", "a.splat"};  // cloud: clouds
-#elif RELIEVO_FUZZ_FAMILY == 3
-constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // scanner: terrestrial and airborne scanners
-#else
-constexpr std::array names = {"a.png", "a.tif", "a.npy", "a.pfm",
-                              "a.bmp", "a.asc", "a.dat", "a.jpg"};  // picture: pictures
-#endif
 
 // Returns the file with correct checksums, because the reader of E57 refuses files with wrong ones.
 std::string with_checksums(std::string file) {
@@ -71,14 +56,15 @@ class Bytes : public ByteSource {
 }  // namespace
 
 void run_target(std::string_view input) {
-  if (input.empty()) return;
+  const std::size_t line_end = input.substr(0, 10).find('\n');
+  if (line_end == 0 || line_end == std::string_view::npos) return;
   const auto first = static_cast<unsigned char>(input[0]);
-  const std::string name = names[first % names.size()];
-  std::string content(input.substr(1));
-  if (name == "a.e57") content = with_checksums(std::move(content));
+  const std::string ending(input.substr(1, line_end - 1)), name = "a." + ending;
+  std::string content(input.substr(line_end + 1));
+  if (ending == "e57") content = with_checksums(std::move(content));
   const auto bytes = std::as_bytes(std::span(content));
   if (!check_answer(read_cloud(bytes, name), name).empty()) std::abort();
-  if (name == "a.obj" || name == "a.gltf") {
+  if (ending == "obj" || ending == "gltf") {
     std::string_view rest = content;
     const auto text = std::as_bytes(std::span(next_part(rest)));
     if (!check_answer(read_cloud(text, name, files_beside(rest)), name).empty()) std::abort();
