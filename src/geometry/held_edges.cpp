@@ -142,7 +142,6 @@ class EdgeHolder {
       else if (key(p, q) != key(a, b))
         made.push_back({p, q});
     }
-    held_.insert(key(a, b));
     restore(made);
     return crossed.empty();
   }
