@@ -27,7 +27,7 @@ class Turntable {
   // The approximate number of points inside a turned relief; about 3,000 points along outlines are added.
   static constexpr std::size_t points = 15'000;
 
-  // Copies the data that it needs from the cloud.
+  // Copies the data that it needs from the cloud, which must be measured without a crop: turn() crops.
   explicit Turntable(const MeasuredCloud& measured);
   ~Turntable();
 

@@ -30,6 +30,12 @@ Cloud thinned(const Cloud& cloud, std::size_t most) {
   return erase_points(cloud, erased);
 }
 
+// Returns the view for measuring the points of a turntable, which applies the crop itself.
+View without_crop(View view) {
+  view.crop = {};
+  return view;
+}
+
 // The last points that were measured, and their measurements.
 struct Measured {
   std::shared_ptr<const Cloud> of;
@@ -181,7 +187,8 @@ struct Session::State {
     if (!progress) return false;
     return keep_first(within_memory([&]() -> Result<ShownModel> {
                         const Cloud part = thinned(cloud, early_points);
-                        RELIEVO_TRY(const auto measured, MeasuredCloud::measure(part, view, progress.get()));
+                        RELIEVO_TRY(const auto measured,
+                                    MeasuredCloud::measure(part, without_crop(view), progress.get()));
                         return Turntable(*measured).turn(view, nullptr, progress.get());
                       }),
                       view);
@@ -226,9 +233,8 @@ struct Session::State {
     if (!last.cloud)
       return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
     if (known) return known;
-    View whole = last.cloud->view();
+    View whole = without_crop(last.cloud->view());
     whole.R_view_model = view.R_view_model;
-    whole.crop = {};
     RELIEVO_TRY(const auto points, all_sides ? all_sides(progress) : Preparation::Points(last.of));
     RELIEVO_CHECK(check_cancelled(&progress));
     std::shared_ptr<const MeasuredCloud> measured = last.cloud;

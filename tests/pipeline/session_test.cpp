@@ -139,6 +139,22 @@ TEST(Session, ShowsALargeCloudBeforeAllItsPointsAreMeasured) {
   EXPECT_GT(turned->model->surface().input_points, 150'000U);
 }
 
+TEST(Session, CropsALargeCloudBeforeAllItsPointsAreMeasured) {
+  Session session;
+  Preparation preparation = preparation_of(310'000);
+  preparation.view.crop = {.least = {.2, 0}, .most = {.6, 1}};
+  preparation.makes_first_relief = true;
+  std::optional<Box> first;
+  preparation.changed = [&] {
+    if (first || session.status().stage != "spacing") return;
+    first = Box::of(session.turn(preparation.view).value().model->surface().points);
+  };
+  test::open_and_wait(session, preparation);
+  ASSERT_TRUE(first);
+  const Box whole = Box::of(session.model()->surface().points);
+  EXPECT_LT((first->size() - whole.size()).head<2>().norm(), .02 * whole.diagonal());
+}
+
 TEST(Session, LetsGoOfPointsOfWhichNoModelCame) {
   Session session;
   std::weak_ptr<const Cloud> read;
