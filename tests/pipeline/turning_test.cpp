@@ -2,6 +2,7 @@
 
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
+#include "relievo/option_table.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "scan/measured_cloud.h"
@@ -10,6 +11,7 @@
 #include "support/same_bits.h"
 #include "support/shapes.h"
 #include "support/shared_scans.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -125,6 +127,47 @@ TEST(Turntable, ShowsNothingOfWhatFacesAway) {
   Cloud sheet = test::sheet(20'000, 1, 0, 3);
   const auto measured = MeasuredCloud::measure(sheet, {}).value();
   expect_error(Turntable(*measured).turn(parse_view("back").value(), nullptr), ErrorKind::geometry);
+}
+
+// Returns values of a view option: the ends of its range, its choices, or the text given here.
+std::vector<OptionValue> values_of(const OptionRow& option) {
+  const std::map<std::string_view, std::vector<OptionValue>> texts{
+      {"view", {"0.3,0,1"}}, {"up", {"1,0,0"}}, {"crop", {"0,0,0.4,1"}}, {"crumbs", {"keep", "largest", "2"}},
+      {"denoise", {"0"}}};
+  if (texts.contains(option.name)) return texts.at(option.name);
+  if (option.is_number()) return {option.min, option.max};
+  std::vector<OptionValue> values;
+  for (const std::string_view choice : option.choices) values.emplace_back(std::string(choice));
+  return values;
+}
+
+// Returns the area of a model, in the plane of the relief.
+double area_of(const ShownModel& shown) {
+  const Surface& surface = shown.model->surface();
+  return test::inside_area(surface.points, surface.triangulation, surface.boundary);
+}
+
+// An option that is forgotten while the model is turned would change the picture when the mouse button is released.
+TEST(Turntable, ShowsAsMuchAsTheReliefOfAllPointsWithEachViewOption) {
+  const auto ball = [](std::size_t points, double radius, double x) {
+    return test::moved(test::sphere(points, radius), {x, 0, 0});
+  };
+  const Cloud balls =
+      test::joined(test::joined(ball(20'000, 1, 0), ball(7'000, .6, 2)), ball(200, .06, -1.5));
+  const Cloud wall = test::joined(ball(20'000, 1, 0), test::sheet(30'000, 2, -1, 5));
+  for (const OptionRow& option : option_table()) {
+    if (option.stage != OptionStage::view) continue;
+    const std::vector<OptionValue> values = values_of(option);
+    EXPECT_FALSE(values.empty()) << "values_of() has no value of " << option.name;
+    for (const OptionValue& value : values)
+      for (const Cloud* cloud : {&balls, &wall}) {
+        const View view = parse_options({{std::string(option.name), value}}).value().view;
+        const ShownModel all = prepared(*MeasuredCloud::measure(*cloud, view).value(), view);
+        const auto whole = MeasuredCloud::measure(*cloud, {.denoise = view.denoise}).value();
+        const ShownModel turned = Turntable(*whole).turn(view, all.model.get()).value();
+        EXPECT_NEAR(area_of(turned), area_of(all), .05 * area_of(all)) << option.name;
+      }
+  }
 }
 
 }  // namespace

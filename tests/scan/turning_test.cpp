@@ -118,9 +118,20 @@ TEST(FrontCells, LoseSmallPieces) {
   const FrontCells before = random_front(1);
   const std::vector<std::size_t> sizes = sizes_of_pieces(before);
   FrontCells after = before;
-  clear_small_pieces(after, 6);
+  clear_small_pieces(after, 6, 0);
   expect_covered(after, [&](std::size_t i) { return before.normal[i].z() > 0 && sizes[i] >= 6; });
   EXPECT_LT(after.covered, before.covered);
+}
+
+TEST(FrontCells, KeepOnlyTheLargestPiece) {
+  const FrontCells before = random_front(1);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i)
+    if (before.normal[i].z() > 0) largest = std::max(largest, sizes[i]);
+  FrontCells after = before;
+  clear_small_pieces(after, 6, 1);
+  expect_covered(after, [&](std::size_t i) { return before.normal[i].z() > 0 && sizes[i] == largest; });
 }
 
 TEST(FrontCells, CloseSmallHoles) {

@@ -16,6 +16,7 @@ struct Run {
   Index begin, end;  // index of the first cell, and of the cell after the last
   bool is_covered;
   std::size_t piece_size = 0;  // number of cells in the run's component
+  bool is_first = false;       // whether this run stands for its component in counts
 };
 
 std::vector<Run> runs_of_row(const FrontCells& front, int y) {
@@ -61,8 +62,19 @@ std::vector<Run> pieces_of(const FrontCells& front) {
   DisjointSets sets = joined(runs, static_cast<Index>(front.normal.width));
   std::vector<std::size_t> cells(runs.size());
   for (Index i = 0; i < runs.size(); ++i) cells[sets.find(i)] += runs[i].end - runs[i].begin;
-  for (Index i = 0; i < runs.size(); ++i) runs[i].piece_size = cells[sets.find(i)];
+  for (Index i = 0; i < runs.size(); ++i)
+    runs[i].piece_size = cells[sets.find(i)], runs[i].is_first = sets.find(i) == i;
   return runs;
+}
+
+// Returns the least size of the components to keep; the rule is that of drop_crumbs().
+std::size_t least_size(std::span<const Run> runs, std::size_t least, std::size_t most_pieces) {
+  std::vector<std::size_t> sizes;
+  for (const Run& run : runs)
+    if (run.is_covered && run.is_first) sizes.push_back(run.piece_size);
+  std::ranges::sort(sizes, std::greater<>());
+  if (most_pieces == 0 || most_pieces >= sizes.size()) return least;
+  return std::max(least, sizes[most_pieces - 1]);
 }
 
 struct Filling {
@@ -91,8 +103,10 @@ std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
 
 }  // namespace
 
-void clear_small_pieces(FrontCells& front, std::size_t least) {
-  for (const Run& run : pieces_of(front)) {
+void clear_small_pieces(FrontCells& front, std::size_t least, std::size_t most_pieces) {
+  const std::vector<Run> runs = pieces_of(front);
+  least = least_size(runs, least, most_pieces);
+  for (const Run& run : runs) {
     if (!run.is_covered || run.piece_size >= least) continue;
     std::fill(front.normal.pixels.begin() + run.begin, front.normal.pixels.begin() + run.end, Vec3f::Zero());
     front.covered -= run.end - run.begin;

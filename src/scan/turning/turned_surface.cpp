@@ -228,9 +228,9 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
   const NormalSigns signs = scan.do_normals_face_viewer ? NormalSigns::unknown : NormalSigns::outward;
   made.front = draw_front(scan.points, view, points * cells_per_point, signs);
   RELIEVO_CHECK(check_cancelled(progress));
-  if (!view.has_crumbs)
-    clear_small_pieces(made.front, static_cast<std::size_t>(ScanLimits::crumb_share *
-                                                            static_cast<double>(made.front.covered)));
+  const double crumb = ScanLimits::crumb_share * static_cast<double>(made.front.covered);
+  clear_small_pieces(made.front, view.has_crumbs ? 0 : static_cast<std::size_t>(crumb),
+                     static_cast<std::size_t>(view.most_pieces));
   const double hole_radius = ScanLimits::largest_hole * scan.rho / static_cast<double>(made.front.cell);
   fill_small_holes(made.front, static_cast<std::size_t>(std::numbers::pi * hole_radius * hole_radius));
   mark_edges(made.front);

@@ -44,8 +44,9 @@ struct FrontCells {
 FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted,
                       NormalSigns signs = NormalSigns::outward);
 
-// Clears connected components of fewer than `least` covered cells.
-void clear_small_pieces(FrontCells& front, std::size_t least);
+// Clears connected components of fewer than `least` covered cells, and all but the `most_pieces` largest ones if that
+// number is not 0.
+void clear_small_pieces(FrontCells& front, std::size_t least, std::size_t most_pieces);
 
 // Fills holes of at most `most` cells from the surrounding cells.
 void fill_small_holes(FrontCells& front, std::size_t most);
