@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 #include "core/simd.h"
 #include "relievo/core/parallel.h"
@@ -147,6 +149,57 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
+// Returns the greatest x at which the shape has a height, for each y from 0 to its reach; -1 if there is none. Returns
+// nothing if the heights of the shape are not all 0.
+std::vector<int> widths_if_flat(const Profile& profile) {
+  std::vector<int> widths(static_cast<std::size_t>(profile.reach()) + 1, -1);
+  for (int y = 0; y <= profile.reach(); ++y)
+    for (int x = 0; x <= profile.reach(); ++x) {
+      const float height = profile.at(x, y);
+      if (height < std::numeric_limits<float>::infinity()) widths[static_cast<std::size_t>(y)] = x;
+      if (height < std::numeric_limits<float>::infinity() && height != 0) return {};
+    }
+  return widths;
+}
+
+// Replaces each value by the maximum of `length` values and the `length` values after them, within its row.
+void double_runs(Framed& runs, std::size_t length) {
+  const auto stride = static_cast<std::size_t>(runs.stride);
+  parallel_for(
+      static_cast<std::size_t>(runs.rows),
+      [&](std::size_t y) {
+        float* const row = runs.values.data() + y * stride;
+        for (std::size_t x = 0; x + length < stride; ++x) row[x] = std::max(row[x], row[x + length]);
+      },
+      16);
+}
+
+// Dilates by a flat shape. The maximum over a row of the shape is that of two runs of 2^k values which overlap, so the
+// time is proportional to the shape's reach and not to its area.
+void dilate_by_runs(Framed runs, const std::vector<int>& widths, int border, Image<float>& out) {
+  const int longest = 2 * *std::ranges::max_element(widths) + 1;
+  for (int length = 1; length <= longest; length *= 2) {
+    if (length > 1) double_runs(runs, static_cast<std::size_t>(length / 2));
+    parallel_for(
+        static_cast<std::size_t>(out.height),
+        [&](std::size_t y) {
+          float* const to = &out.at(0, static_cast<int>(y));
+          const auto take = [&](int away, int width) {
+            const float* const first =
+                runs.at(runs.frame - border - width, static_cast<int>(y) + runs.frame - border + away);
+            const float* const second = first + (2 * width + 1 - length);
+            for (int x = 0; x < out.width; ++x) to[x] = std::max(to[x], std::max(first[x], second[x]));
+          };
+          for (int away = 0; away < static_cast<int>(widths.size()); ++away) {
+            const int width = widths[static_cast<std::size_t>(away)];
+            if (2 * width + 1 < length || 2 * width + 1 >= 2 * length) continue;
+            take(away, width), take(-away, width);
+          }
+        },
+        4);
+  }
+}
+
 // The number of rows or columns that are averaged at the same time, each for itself. Columns that are neighbours
 // stand side by side in memory, so that each access to memory uses a whole cache line.
 constexpr std::size_t lanes = 16;
@@ -194,8 +247,12 @@ void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border) {
   const int width = image.width + 2 * border, height = image.height + 2 * border;
   if (width <= 0 || height <= 0) return {};
-  Image<float> out = filled_image(width, height, 0.F);
-  const Framed from(image, std::max(border, 0) + profile.reach() + block);
+  Image<float> out = filled_image(width, height, least);
+  Framed from(image, std::max(border, 0) + profile.reach() + block);
+  if (const std::vector<int> widths = widths_if_flat(profile); !widths.empty()) {
+    dilate_by_runs(std::move(from), widths, border, out);
+    return out;
+  }
   parallel_for(
       static_cast<std::size_t>(out.height),
       [&](std::size_t row) {
