@@ -60,6 +60,8 @@ Result<void> check_vertical_scale(const ReliefOptions& options) {
                         cat("expected method linear with it, found ", name_of(options.effective_method())));
   if (options.form == Form::lithophane || options.draft_deg)
     return option_error("mm-per-value", "expected neither a lithophane nor a draft beside it, found one");
+  if (!options.strokes.empty() || options.colour_mm > 0)
+    return option_error("mm-per-value", "expected neither strokes nor colour beside it, found one");
   return {};
 }
 

@@ -105,6 +105,10 @@ TEST(Options, HaveAVerticalScaleOrAHeight) {
   options.draft_deg = 10;
   EXPECT_EQ(message_of(check(options)),
             "mm-per-value: expected neither a lithophane nor a draft beside it, found one");
+  options.draft_deg.reset();
+  options.colour_mm = 1;
+  EXPECT_EQ(message_of(check(options)),
+            "mm-per-value: expected neither strokes nor colour beside it, found one");
 }
 
 TEST(Options, HaveControlPointsInASubspaceOnly) {
