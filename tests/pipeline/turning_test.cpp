@@ -131,9 +131,11 @@ TEST(Turntable, ShowsNothingOfWhatFacesAway) {
 
 // Returns values of a view option: the ends of its range, its choices, or the text given here.
 std::vector<OptionValue> values_of(const OptionRow& option) {
-  const std::map<std::string_view, std::vector<OptionValue>> texts{
-      {"view", {"0.3,0,1"}}, {"up", {"1,0,0"}}, {"crop", {"0,0,0.4,1"}}, {"crumbs", {"keep", "largest", "2"}},
-      {"denoise", {"0"}}};
+  const std::map<std::string_view, std::vector<OptionValue>> texts{{"view", {"0.3,0,1"}},
+                                                                   {"up", {"1,0,0"}},
+                                                                   {"crop", {"0,0,0.4,1"}},
+                                                                   {"crumbs", {"keep", "largest", "2"}},
+                                                                   {"denoise", {"0"}}};
   if (texts.contains(option.name)) return texts.at(option.name);
   if (option.is_number()) return {option.min, option.max};
   std::vector<OptionValue> values;
@@ -166,6 +168,8 @@ TEST(Turntable, ShowsAsMuchAsTheReliefOfAllPointsWithEachViewOption) {
         const auto whole = MeasuredCloud::measure(*cloud, {.denoise = view.denoise}).value();
         const ShownModel turned = Turntable(*whole).turn(view, all.model.get()).value();
         EXPECT_NEAR(area_of(turned), area_of(all), .05 * area_of(all)) << option.name;
+        const double diagonal = all.model->surface().diagonal;
+        EXPECT_NEAR(turned.model->surface().diagonal, diagonal, .01 * diagonal) << option.name;
       }
   }
 }

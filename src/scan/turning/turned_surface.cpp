@@ -250,7 +250,7 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
   surface.view = view;
   surface.centre = scan.centre;
   surface.rho = choice.spacing() * static_cast<double>(made.front.cell);
-  surface.diagonal = scan.diagonal;
+  surface.diagonal = view.crop == Crop{} ? scan.diagonal : static_cast<double>(made.front.diagonal);
   surface.input_points = scan.points.size();
   surface.visible_points = surface.points.size();
   return made;
