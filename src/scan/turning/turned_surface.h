@@ -62,6 +62,9 @@ struct TurningScan {
   explicit TurningScan(const MeasuredCloud& measured);
 
   std::vector<FrontPoint> points;
+  // Per point, or empty; see Cloud.
+  std::vector<Colour> colours;
+  std::vector<float> own_heights;
   bool do_normals_face_viewer = false;  // true if signs are unknown; each normal is then turned to the viewer
   Vec3 centre = Vec3::Zero();           // see Surface::centre
   double rho = 0, diagonal = 0;
