@@ -83,8 +83,8 @@ struct Engine::State {
       return points(*chosen, number, progress);
     };
     preparation.chosen_view = [chosen] { return *chosen; };
-    preparation.all_sides = [this](Progress&) -> Preparation::Points {
-      return shared.with([](const Shared& s) { return s.scan; }).all_sides();
+    preparation.all_sides = [this, chosen](Progress&) -> Preparation::Points {
+      return shared.with([](const Shared& s) { return s.scan; }).all_sides(*chosen);
     };
     preparation.makes_first_relief = !changed;  // without threads no picture of it could be requested
     preparation.model = options.effective_model();
@@ -353,7 +353,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   if (!scan.cloud()) return nothing_open();
   if (scan.cloud() != state_->drawn_cloud) {
     state_->drawn_cloud.reset();
-    RELIEVO_TRY(const auto points, scan.all_sides());
+    RELIEVO_TRY(const auto points, scan.all_sides({}));
     state_->cloud_renderer.emplace(*points);
     state_->drawn_cloud = scan.cloud();
   }
@@ -376,10 +376,7 @@ Result<std::vector<std::optional<Vec3>>> Engine::points_under(std::span<const Ve
 }
 
 Result<std::vector<ViewGuess>> Engine::suggest_views() {
-  const auto cloud = state_->scan_in_use().cloud();
-  if (!cloud) return nothing_open();
-  const auto ranked = rank_views(*cloud);
-  return std::vector<ViewGuess>(ranked.begin(), ranked.end());
+  return state_->scan_in_use().ranked_sides();
 }
 
 Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, PieceUse use) {
