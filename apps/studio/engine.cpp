@@ -39,7 +39,8 @@ struct PreparedScan : NumberedModel {
 };
 
 struct Shared {
-  ScanSource wanted;  // the scan that was requested last
+  ScanSource wanted;           // the scan that was requested last
+  std::uint64_t openings = 0;  // number of scans that were opened
   OptionValues view;
   std::optional<ViewGuess> best;            // the side that was chosen, if the view is "auto"
   std::shared_ptr<const ScanOrder> unread;  // the scan that was requested but is not read yet
@@ -65,9 +66,10 @@ struct Engine::State {
   Mutex drawing_mutex;  // guards the members up to the next mutex
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
-  std::optional<View> turned_view;  // the view for which `turned` was made
-  std::optional<Drawing> turned;    // the turned relief that is drawn while the user turns the model
-  Mutex scan_mutex;                 // guards the members up to the session
+  // The view for which `turned` was made, and Shared::openings at that time.
+  std::optional<std::pair<View, std::uint64_t>> turned_of;
+  std::optional<Drawing> turned;  // the turned relief that is drawn while the user turns the model
+  Mutex scan_mutex;               // guards the members up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -81,8 +83,8 @@ struct Engine::State {
       return points(*chosen, number, progress);
     };
     preparation.chosen_view = [chosen] { return *chosen; };
-    preparation.all_sides = [this](Progress&) -> Preparation::Points {
-      return shared.with([](const Shared& s) { return s.scan; }).all_sides();
+    preparation.all_sides = [this, chosen](Progress&) -> Preparation::Points {
+      return shared.with([](const Shared& s) { return s.scan; }).all_sides(*chosen);
     };
     preparation.makes_first_relief = !changed;  // without threads no picture of it could be requested
     preparation.model = options.effective_model();
@@ -142,18 +144,21 @@ struct Engine::State {
   // used until the view is prepared, even if options change. While the turned relief is made, other pictures
   // can be drawn, and a request for another view cancels the making.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
-    std::uint64_t model = 0;  // number of the model that was shown when the turned relief was begun
+    // The model that was shown, and the scans that were opened, when the turned relief was begun.
+    std::uint64_t model = 0, opening = 0;
     for (std::optional<ShownModel> relief;;) {
       {
         const Lock lock(drawing_mutex);
         RELIEVO_CHECK(check_cancelled(request.progress.get()));
-        if (relief && model == drawn_model) {
-          const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
+        const auto [newest, scan] =
+            shared.with([](const Shared& s) { return std::pair(s.openings, s.scan); });
+        if (relief && model == drawn_model && opening == newest) {
           turned.emplace(*std::move(relief), scan.left_out(), scan.remarks());
-          turned_view = request.turned;
+          turned_of.emplace(*request.turned, opening);
         }
         model = drawn_model;
-        if (turned && turned_view == request.turned) return turned->picture(request);
+        opening = newest;
+        if (turned && turned_of == std::pair(*request.turned, newest)) return turned->picture(request);
       }
       RELIEVO_TRY(relief, session.turn(*request.turned));
     }
@@ -168,7 +173,6 @@ struct Engine::State {
     if (!shown.model) return nullptr;
     if (drawn_model != shown.number) {
       drawing.emplace(ShownModel{shown.model}, shown.scan.left_out(), shown.scan.remarks());
-      turned_view.reset();
       turned.reset();
     }
     drawn_model = shown.number;
@@ -195,6 +199,7 @@ Engine::~Engine() = default;
 void Engine::open(const ScanSource& input, const OptionValues& view) {
   // If the view's options are wrong, the next picture reports the error.
   Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
+  preparation.is_of_other_scan = true;
   const auto unread = std::make_shared<const ScanOrder>(input, reading_of(view));
   state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
     s.unread = unread;
@@ -203,6 +208,8 @@ void Engine::open(const ScanSource& input, const OptionValues& view) {
     s.best.reset();
   });
   state_->session.open(std::move(preparation));
+  // The session does not show the previous scan any more, so that a turned relief with this number is of the new one.
+  state_->shared.with([](Shared& s) { ++s.openings; });
 }
 
 void Engine::show(const ScanSource& input, const OptionValues& view) {
@@ -346,7 +353,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   if (!scan.cloud()) return nothing_open();
   if (scan.cloud() != state_->drawn_cloud) {
     state_->drawn_cloud.reset();
-    RELIEVO_TRY(const auto points, scan.all_sides());
+    RELIEVO_TRY(const auto points, scan.all_sides({}));
     state_->cloud_renderer.emplace(*points);
     state_->drawn_cloud = scan.cloud();
   }
@@ -369,10 +376,7 @@ Result<std::vector<std::optional<Vec3>>> Engine::points_under(std::span<const Ve
 }
 
 Result<std::vector<ViewGuess>> Engine::suggest_views() {
-  const auto cloud = state_->scan_in_use().cloud();
-  if (!cloud) return nothing_open();
-  const auto ranked = rank_views(*cloud);
-  return std::vector<ViewGuess>(ranked.begin(), ranked.end());
+  return state_->scan_in_use().ranked_sides();
 }
 
 Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, PieceUse use) {

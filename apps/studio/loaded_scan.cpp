@@ -13,14 +13,21 @@
 namespace relievo::app::studio {
 namespace {
 
+constexpr std::size_t scattered = 400'000;  // number of points on meshes, of which about half face the viewer
+
+// Returns points on all sides of a model, in the axes of its file.
+Cloud sides_of(const CloudFile& file, std::size_t points) {
+  return file.mesh.empty() ? erase_points(file.cloud, outliers(file.cloud)) : scatter(file.mesh, points);
+}
+
 // Returns for each model the share of its points to keep, so that all models are about equally dense. This is needed
 // because all points are drawn as discs of the same size, which suits only one density. The common spacing is that of
 // the coarsest model, but at most three times that of the densest one.
-std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
+std::vector<double> even_shares(std::span<const Cloud> clouds, std::span<const PlacedModel> places) {
+  if (places.size() < 2) return std::vector<double>(places.size(), 1);
   std::vector<double> apart;
-  if (places.empty()) return apart;
   for (std::size_t i = 0; i < places.size(); ++i)
-    apart.push_back(places[i].scale * measure_spacing(scene.models[i].file->cloud).rho);
+    apart.push_back(clouds[i].size() < 2 ? 0 : places[i].scale * measure_spacing(clouds[i]).rho);
   const auto [finest, coarsest] = std::ranges::minmax(apart);
   const double wanted = std::min(3 * finest, coarsest);
   for (double& share : apart) share = wanted > 0 ? std::min(1.0, std::pow(share / wanted, 2)) : 1;
@@ -34,19 +41,54 @@ Cloud share_of(const Cloud& cloud, double share) {
   return erase_points(cloud, left_out);
 }
 
+// Adds the points of a model to `all`. Drops the normals unless all models have normals. If any model has colours,
+// models without become white, as in sample_for_view().
+void add(const Cloud& model, const PlacedModel& place, const Pose& pose, Cloud& all) {
+  constexpr Colour white{255, 255, 255};
+  const std::size_t before = all.size();
+  const bool has_normals = model.has_normals() && (before == 0 || all.has_normals());
+  for (const Vec3& p : model.points) all.points.push_back(place(p));
+  if (!has_normals) all.normals.clear();
+  if (has_normals)
+    for (const Vec3f& n : model.normals) all.normals.push_back(place.turn.cast<float>() * n);
+  if (model.has_colours() || all.has_colours()) {
+    all.colours.resize(before, white);
+    all.colours.insert(all.colours.end(), model.colours.begin(), model.colours.end());
+    all.colours.resize(all.size(), white);
+  }
+  if (pose.height || !all.own_heights.empty()) {
+    all.own_heights.resize(before, 0);
+    all.own_heights.resize(all.size(), static_cast<float>(pose.height.value_or(0)));
+  }
+}
+
+// Returns points on all sides of all models, placed as the view shows them.
+Cloud sides_of(const Scene& scene, const View& view) {
+  const std::vector<PlacedModel> places = place_models(scene, view).value_or(std::vector<PlacedModel>());
+  const auto is_mesh = [](const SceneModel& model) { return !model.file->mesh.empty(); };
+  const auto meshes = static_cast<std::size_t>(std::ranges::count_if(scene.models, is_mesh));
+  std::vector<Cloud> clouds;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    clouds.push_back(sides_of(*scene.models[i].file, scattered / std::max<std::size_t>(meshes, 1)));
+  const std::vector<double> shares = even_shares(clouds, places);
+  Cloud all;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    add(share_of(clouds[i], shares[i]), places[i], scene.models[i].pose, all);
+  return all;
+}
+
 }  // namespace
 
 LoadedScan::LoadedScan(ScanOrder order, Scene scene) : order_(std::move(order)), scene_(std::move(scene)) {
+  for (const SceneModel& model : scene_.models)
+    if (model.file->mesh.empty()) left_out_ += outliers(model.file->cloud).size();
   const std::shared_ptr<const CloudFile> first = scene_.models[0].file;
-  if (is_one_file() && (!first->mesh.empty() || outliers(first->cloud).empty())) {
+  if (!is_one_file())
+    cloud_ = std::make_shared<const Cloud>(sides_of(scene_, {}));
+  else if (left_out_ > 0)
+    cloud_ = std::make_shared<const Cloud>(sides_of(*first, 0));
+  else
     cloud_ = {first, &first->cloud};
-    return;
-  }
-  Cloud all;
-  const std::vector<PlacedModel> places = place_models(scene_, {}).value_or(std::vector<PlacedModel>());
-  const std::vector<double> shares = even_shares(scene_, places);
-  for (std::size_t i = 0; i < places.size(); ++i) add(*scene_.models[i].file, places[i], shares[i], all);
-  cloud_ = std::make_shared<const Cloud>(std::move(all));
 }
 
 bool LoadedScan::depends_on(const InputArguments& how) const {
@@ -63,31 +105,22 @@ bool LoadedScan::is_one_file() const {
   return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
 }
 
-// Adds the points of a model to `all`. Drops the normals unless all models have normals, and the colours unless all
-// models have colours.
-void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
-  const bool is_mesh = !file.mesh.empty();
-  const std::vector<Index> outlying = is_mesh ? std::vector<Index>() : outliers(file.cloud);
-  left_out_ += outlying.size();
-  const Cloud near = share_of(erase_points(file.cloud, outlying), share);
-  const bool is_first = all.size() == 0;
-  const bool has_normals = near.has_normals() && (is_first || all.has_normals());
-  const bool has_colours = near.has_colours() && (is_first || all.has_colours());
-  for (const Vec3& p : near.points) all.points.push_back(place(p));
-  if (!has_normals) all.normals.clear();
-  if (!has_colours) all.colours.clear();
-  if (has_normals)
-    for (const Vec3f& n : near.normals) all.normals.push_back(place.turn.cast<float>() * n);
-  if (has_colours) all.colours.insert(all.colours.end(), near.colours.begin(), near.colours.end());
-}
-
-Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides() const {
-  constexpr std::size_t scattered = 400'000;  // number of points, of which about half face the viewer
+Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides(const View& view) const {
   if (scene_.models.empty())
     return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
   const Mesh& mesh = scene_.models[0].file->mesh;
-  if (!is_one_file() || mesh.empty()) return cloud_;
-  return std::make_shared<const Cloud>(scatter(mesh, scattered));
+  if (is_one_file() && !mesh.empty()) return std::make_shared<const Cloud>(scatter(mesh, scattered));
+  const bool is_as_in_front = is_one_file() || view.R_view_model == Mat3::Identity();
+  return is_as_in_front ? cloud_ : std::make_shared<const Cloud>(sides_of(scene_, view));
+}
+
+Result<std::vector<ViewGuess>> LoadedScan::ranked_sides() const {
+  constexpr std::size_t ranked = 200'000;  // as many as best_side() ranks, so that both find the same side
+  if (scene_.models.empty())
+    return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
+  const Mesh& mesh = scene_.models[0].file->mesh;
+  const auto sides = rank_views(is_one_file() && !mesh.empty() ? scatter(mesh, ranked) : *cloud_);
+  return std::vector<ViewGuess>(sides.begin(), sides.end());
 }
 
 std::vector<std::string> LoadedScan::remarks() const {

@@ -33,15 +33,18 @@ class LoadedScan {
   // Returns the model if the scan is a single depth image, otherwise null.
   const SceneModel* depth_image() const;
 
-  // Returns the points for ranking views: the points of clouds, without outliers, and the vertices of meshes,
-  // in the coordinates of the front view. Null if no scan was read.
+  // Returns the points of a cloud, without outliers, the vertices of a mesh, or points on all sides of a scene,
+  // whose models are placed as in the front view. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points on all sides of the scan, for turning it and for choosing a view. For a single mesh the
-  // points are scattered evenly over it; otherwise they are those of cloud().
-  Result<std::shared_ptr<const Cloud>> all_sides() const;
+  // Returns points on all sides of the scan, for turning it. On meshes they are scattered evenly. The models
+  // of a scene are placed as the view shows them, and keep these places while they are turned.
+  Result<std::shared_ptr<const Cloud>> all_sides(const View& view) const;
+
+  // Returns the six sides of the scan as views, the best one first; see rank_views().
+  Result<std::vector<ViewGuess>> ranked_sides() const;
 
   // Returns the number of outliers that were left out of clouds.
   std::size_t left_out() const { return left_out_; }
@@ -57,7 +60,6 @@ class LoadedScan {
 
  private:
   bool is_one_file() const;
-  void add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all);
 
   ScanOrder order_;
   Scene scene_;

@@ -38,6 +38,10 @@ struct Preparation {
   View view = {};
   ModelOptions model = {Mode::automatic};
 
+  // Whether the points are those of another scan than that of the previous preparation. If no model was made
+  // of the previous points, they are then freed at once, so that turn() does not show them any more.
+  bool is_of_other_scan = false;
+
   // If set, it is called after points(), and returns a view that depends on the points.
   std::function<View()> chosen_view = {};
 

@@ -177,7 +177,8 @@ Result<Relief> relief_of(const ReliefModel& model, const ReliefOptions& options,
   Result<Relief> relief = relief_of_height(model, options, progress);
   if (relief || relief.error().kind != ErrorKind::geometry || !is_share) return relief;
   if (!has_shape(options.effective_method())) return relief;
-  const double highest = model.make(uncompressed(shape_of(options))).height;
+  const Shape shape = shape_of(options, mm_per_unit(model.surface(), options));
+  const double highest = model.make(uncompressed(shape)).height;
   relief.error().expected +=
       cat("; normals alone reach ", highest / model.surface().diagonal, " of the diagonal");
   return relief;
@@ -278,8 +279,10 @@ Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions&
     RELIEVO_CHECK(check_model(model, asked));
     RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
     options.height_mm.reset();
-    RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));
-    return relief.height * mm_per_unit(model.surface(), options);
+    const double scale = mm_per_unit(model.surface(), options);
+    RELIEVO_TRY(const Relief relief,
+                shape_relief(model, options, uncompressed(shape_of(options, scale)), progress));
+    return relief.height * scale;
   });
 }
 

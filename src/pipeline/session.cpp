@@ -76,6 +76,11 @@ struct Shared {
     if (!model) forget_points();
   }
 
+  // Frees the points of another scan, unless the model is of them.
+  void forget_other_scan() {
+    if (!model || measured.of != of_model.lock()) forget_points();
+  }
+
   void forget_points() {
     measured = {};
     all_sides = nullptr;
@@ -173,7 +178,7 @@ struct Session::State {
   void make_first(const View& view) {
     const auto progress = shared.with([](const Shared& s) { return s.making_first; });
     if (!progress) return;
-    keep_first(turned(view, nullptr, progress), view);
+    keep_first(turned(view, nullptr, progress), view, *progress);
   }
 
   // Makes the first coarse relief of a large cloud, if wanted, before all its points are measured. Returns
@@ -191,14 +196,16 @@ struct Session::State {
                                     MeasuredCloud::measure(part, without_crop(view), progress.get()));
                         return Turntable(*measured).turn(view, nullptr, progress.get());
                       }),
-                      view);
+                      view, *progress);
   }
 
-  bool keep_first(Result<ShownModel> made, const View& view) {
+  // Keeps the first coarse relief, unless a newer open() has cancelled it. Returns whether it was kept.
+  bool keep_first(Result<ShownModel> made, const View& view, const Progress& progress) {
     return shared.with([&](Shared& s) {
       s.making_first = nullptr;
-      if (made) s.first = std::move(*made), s.first_view = view;
-      return made.has_value();
+      if (!made || progress.is_cancelled()) return false;
+      s.first = std::move(*made), s.first_view = view;
+      return true;
     });
   }
 
@@ -268,10 +275,12 @@ Session::~Session() {
 }
 
 void Session::open(Preparation preparation) {
+  const bool is_of_other_scan = preparation.is_of_other_scan;
   Result<Waiting> next = within_memory([&] { return state_->waiting(std::move(preparation)); });
   state_->shared.with([&](Shared& s) {
     if (s.progress) s.progress->cancel();
     s.cancel_first();
+    if (is_of_other_scan) s.forget_other_scan();
     s.waiting.reset();
     s.status = {next.has_value(), "waiting", 0, std::nullopt};
     if (next)

@@ -211,6 +211,30 @@ TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   expect_error(make_relief(*model, options), "draft: expected ");
 }
 
+// Lines sink by millimetres of the relief, whatever the unit of the scan is.
+TEST(MakeRelief, SinksLinesEquallyDeepAtEachScaleOfTheScan) {
+  Cloud scan = test::height_field(
+      10'000, 1, [](double x, double) { return .4 * std::cos(2 * x); },
+      [](double x, double) { return Vec2(-.8 * std::sin(2 * x), 0); });
+  for (const Vec3& p : scan.points)
+    scan.colours.push_back(std::abs(p.x()) < .05 ? Colour{20, 20, 20} : Colour{230, 230, 230});
+  ReliefOptions steep{{.width_mm = 60, .draft_deg = 30}};
+  steep.colour_mm = 1;
+  ReliefOptions high{{.width_mm = 60}};
+  high.colour_mm = 1;
+  high.height_of_diagonal = .9;
+  const auto at_scale = [&](double scale) {
+    const ReliefModel model = prepare(test::scaled(scan, scale), View{}).value();
+    return std::pair(value_of(highest_with_draft(model, steep)), message_of(make_relief(model, high)));
+  };
+  const auto [height, message] = at_scale(1);
+  EXPECT_NE(message.find("; normals alone reach 0."), std::string::npos) << message;
+  for (const double scale : {1. / 64, 64.}) {
+    EXPECT_NEAR(at_scale(scale).first, height, 1e-6 * height);
+    EXPECT_EQ(at_scale(scale).second, message);
+  }
+}
+
 TEST(MakeRelief, RefusesAModelThatIsPreparedForLess) {
   const auto error_of = [](Method prepared, Method wanted) {
     ReliefOptions options;

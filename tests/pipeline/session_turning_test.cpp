@@ -85,6 +85,47 @@ TEST(Session, ForgetsTheFirstReliefOfOtherPoints) {
   ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
+// Returns whether a scan that was measured can still be turned while the next preparation reads its points.
+bool turns_while_reading(bool is_of_other_scan) {
+  Session session;
+  HeldAtPoints held{session};
+  Preparation first = held.preparation(20'000);
+  first.makes_first_relief = true;
+  session.open(first);
+  held.has_measured.acquire();
+  EXPECT_TRUE(session.status().can_turn);
+  Stuck stuck;
+  Preparation next = stuck.preparation();
+  next.is_of_other_scan = is_of_other_scan;
+  session.open(next);
+  held.may_go_on.release();
+  stuck.has_begun.acquire();
+  const bool can_turn = session.status().can_turn;
+  for (const char* view : {"front", "left"})
+    EXPECT_EQ(session.turn(view_to(view)).has_value(), can_turn) << view;
+  session.cancel();
+  EXPECT_TRUE(session.wait_until_idle(60s));
+  return can_turn;
+}
+
+TEST(Session, DoesNotTurnThePreviousScanWhileItReadsAnother) {
+  EXPECT_FALSE(turns_while_reading(true));
+  EXPECT_TRUE(turns_while_reading(false));
+}
+
+TEST(Session, TurnsThePreviousModelWhileItReadsAnotherScan) {
+  Session session;
+  test::open_and_wait(session);
+  Stuck stuck;
+  Preparation next = stuck.preparation();
+  next.is_of_other_scan = true;
+  session.open(next);
+  stuck.has_begun.acquire();
+  EXPECT_TRUE(session.turn(view_to("1,0,1")));
+  session.cancel();
+  ASSERT_TRUE(session.wait_until_idle(60s));
+}
+
 TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   Session session;
   std::binary_semaphore has_begun{0};

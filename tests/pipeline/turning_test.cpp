@@ -1,5 +1,6 @@
 #include "relievo/turning.h"
 
+#include "core/quantile.h"
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "relievo/option_table.h"
@@ -129,11 +130,67 @@ TEST(Turntable, ShowsNothingOfWhatFacesAway) {
   expect_error(Turntable(*measured).turn(parse_view("back").value(), nullptr), ErrorKind::geometry);
 }
 
+// Returns the heights of a relief that is 3 mm high, in mm.
+std::vector<double> heights_mm(const ShownModel& relief, double colour_mm) {
+  ReliefOptions options{{.height_mm = height_mm}};
+  options.colour_mm = colour_mm;
+  const double mm = mm_per_unit(relief.model->surface(), options);
+  FrameOptions wanted{shape_of(options, mm), height_mm / mm};
+  wanted.shape.boundary_width *= relief.spacing_ratio;
+  Frame frame;
+  FrameMaker(*relief.model).make(wanted, frame);
+  EXPECT_TRUE(frame.is_height_met);
+  std::vector<double> heights;
+  for (const float z : frame.heights) heights.push_back(static_cast<double>(z) * mm);
+  return heights;
+}
+
+// Returns the model of all points in the view, and the turned model.
+std::array<ShownModel, 2> full_and_turned(const Cloud& cloud, const View& view) {
+  const auto measured = MeasuredCloud::measure(cloud, {}).value();
+  return {prepared(*measured, view), Turntable(*measured).turn(view, nullptr).value()};
+}
+
+TEST(Turntable, SinksDarkLinesAsTheReliefOfAllPoints) {
+  Cloud dome = test::height_field(
+      40'000, 1, [](double x, double) { return .4 * std::cos(2 * x); },
+      [](double x, double) { return Vec2(-.8 * std::sin(2 * x), 0); });
+  for (const Vec3& p : dome.points)
+    dome.colours.push_back(std::abs(p.x() - .3) < .05 ? Colour{20, 20, 20} : Colour{230, 230, 230});
+  for (const ShownModel& shown : full_and_turned(dome, {})) {
+    const std::vector<double> plain = heights_mm(shown, 0), sunk = heights_mm(shown, .5);
+    std::vector<double> deep;
+    const std::vector<Vec3>& points = shown.model->surface().points;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (std::abs(points[i].x() - .3) < .01 && std::abs(points[i].y()) < .5)
+        deep.push_back(plain[i] - sunk[i]);
+    EXPECT_NEAR(quantile(deep, .5), .5, .05);
+  }
+}
+
+TEST(Turntable, GivesModelsOfASceneTheirOwnHeights) {
+  Cloud scene = test::joined(test::sheet(60'000, 2, 0, 5), test::moved(test::sphere(20'000, .6), {-1, 0, 0}));
+  scene.own_heights.assign(scene.size(), 0);
+  scene = test::joined(std::move(scene), test::moved(test::sphere(20'000, .6), {1, 0, 0}));
+  scene.own_heights.resize(scene.size(), .3F);
+  for (const ShownModel& shown : full_and_turned(scene, {})) {
+    const std::vector<double> heights = heights_mm(shown, 0);
+    double lower = 0;
+    const std::vector<Vec3>& points = shown.model->surface().points;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points[i].x() > 0) lower = std::max(lower, heights[i]);
+    EXPECT_NEAR(lower, .3 * height_mm, .1 * height_mm);  // the sheet behind it is not quite level
+  }
+  EXPECT_TRUE(full_and_turned(scene, parse_view("0.3,0.2,1").value())[1].model);
+}
+
 // Returns values of a view option: the ends of its range, its choices, or the text given here.
 std::vector<OptionValue> values_of(const OptionRow& option) {
-  const std::map<std::string_view, std::vector<OptionValue>> texts{
-      {"view", {"0.3,0,1"}}, {"up", {"1,0,0"}}, {"crop", {"0,0,0.4,1"}}, {"crumbs", {"keep", "largest", "2"}},
-      {"denoise", {"0"}}};
+  const std::map<std::string_view, std::vector<OptionValue>> texts{{"view", {"0.3,0,1"}},
+                                                                   {"up", {"1,0,0"}},
+                                                                   {"crop", {"0,0,0.4,1"}},
+                                                                   {"crumbs", {"keep", "largest", "2"}},
+                                                                   {"denoise", {"0"}}};
   if (texts.contains(option.name)) return texts.at(option.name);
   if (option.is_number()) return {option.min, option.max};
   std::vector<OptionValue> values;
@@ -166,6 +223,8 @@ TEST(Turntable, ShowsAsMuchAsTheReliefOfAllPointsWithEachViewOption) {
         const auto whole = MeasuredCloud::measure(*cloud, {.denoise = view.denoise}).value();
         const ShownModel turned = Turntable(*whole).turn(view, all.model.get()).value();
         EXPECT_NEAR(area_of(turned), area_of(all), .05 * area_of(all)) << option.name;
+        const double diagonal = all.model->surface().diagonal;
+        EXPECT_NEAR(turned.model->surface().diagonal, diagonal, .01 * diagonal) << option.name;
       }
   }
 }

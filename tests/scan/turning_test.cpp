@@ -23,6 +23,27 @@ TEST(TurnedSurface, LiesOnTheSphere) {
   }
 }
 
+// Two spheres of different colours and heights, one of which hides a part of the other.
+TEST(TurnedSurface, HasTheColoursAndOwnHeightsOfThePointsInFront) {
+  Cloud cloud = test::joined(test::sphere(60'000, 1), test::moved(test::sphere(60'000, .5), {0, 0, 2}));
+  for (const Vec3& p : cloud.points) {
+    const bool is_small = p.z() > 1.2;
+    cloud.colours.push_back(is_small ? Colour{200, 0, 0} : Colour{0, 0, 100});
+    cloud.own_heights.push_back(is_small ? .5F : 0.F);
+  }
+  const Surface surface = turned(cloud).surface;
+  ASSERT_EQ(surface.colours.size(), surface.points.size());
+  ASSERT_EQ(surface.own_heights.size(), surface.points.size());
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const double distance = surface.points[i].head<2>().norm();
+    if (std::abs(distance - .5) < .04 || distance > .97) continue;  // next to outlines
+    const bool is_small = distance < .5;
+    EXPECT_EQ(surface.colours[i], (is_small ? Colour{200, 0, 0} : Colour{0, 0, 100})) << distance;
+    EXPECT_EQ(surface.own_heights[i], is_small ? .5F : 0.F) << distance;
+  }
+  EXPECT_TRUE(turned(test::sphere(60'000, 1)).surface.colours.empty());
+}
+
 // The smaller sheet hides only a part of the larger sheet behind it. So the covered area is the area of the
 // larger sheet.
 TEST(FrontCells, ShowsWhatIsInFront) {

@@ -170,13 +170,14 @@ struct FlatBox {
   Vec3f size() const { return most - least; }
 };
 
+// Returns the box to which `extend` adds the places of points.
 template <typename F>
-FlatBox box_of(std::span<const FrontPoint> points, F&& turned) {
+FlatBox box_of(std::span<const FrontPoint> points, F&& extend) {
   return parallel_reduce(
       points.size(), FlatBox{},
       [&](std::size_t begin, std::size_t end) {
         FlatBox box;
-        for (std::size_t i = begin; i < end; ++i) box.extend(turned(points[i].place));
+        for (std::size_t i = begin; i < end; ++i) extend(box, points[i].place);
         return box;
       },
       [](const FlatBox& a, const FlatBox& b) { return a.merged(b); }, block);
@@ -198,7 +199,7 @@ class FrontDrawing {
  public:
   FrontDrawing(std::span<const FrontPoint> points, const View& view, NormalSigns signs)
       : points_(points), signs_(signs), R_(view.R_view_model.cast<float>()), crop_(view.crop) {
-    box_ = box_of(points, [this](const Vec3f& p) -> Vec3f { return R_ * p; });
+    box_ = box_of(points, [this](FlatBox& box, const Vec3f& p) { box.extend(R_ * p); });
     if (crop_ != Crop{}) box_ = cropped_box(box_, crop_);
   }
 
@@ -207,6 +208,7 @@ class FrontDrawing {
     sort_into_bands();
     parallel_for(
         bands(), [this](std::size_t b) { draw_band(static_cast<int>(b)); }, 1);
+    if (crop_ != Crop{}) cells_.diagonal = shown_diagonal();
     cells_.covered = static_cast<std::size_t>(
         std::ranges::count_if(cells_.normal.pixels, [](const Vec3f& n) { return n.z() > 0; }));
     return std::move(cells_);
@@ -218,6 +220,13 @@ class FrontDrawing {
   }
   bool is_shown(const Vec3f& p) const {
     return (p.array() >= box_.least.array()).all() && (p.array() <= box_.most.array()).all();
+  }
+
+  float shown_diagonal() const {
+    const FlatBox shown = box_of(points_, [this](FlatBox& box, const Vec3f& p) {
+      if (is_shown(R_ * p)) box.extend(p);
+    });
+    return shown.size().norm();
   }
 
   Vec3f normal_of(const FrontPoint& point) const {

@@ -1,6 +1,7 @@
 #include "scan/turning/turned_surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -159,6 +160,80 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
+// Finds the points of a scan that are visible in cells. Scans without colours and own heights do without.
+class PointsInFront {
+ public:
+  PointsInFront(const TurningScan& scan, const View& view, const FrontCells& front, int step)
+      : front_(front),
+        nearest_(filled_image(front.depth.width, front.depth.height, no_index)),
+        distance_(
+            filled_image(front.depth.width, front.depth.height, 6 * static_cast<float>(step) * front.cell)) {
+    const Eigen::Matrix3f R = view.R_view_model.cast<float>();
+    for (Index i = 0; i < scan.points.size(); ++i) add(i, R * scan.points[i].place);
+  }
+
+  // Returns the points of the cells whose columns and rows differ from those of `cell` by at most `reach`. If there
+  // are none, looks for points farther away.
+  std::vector<Index> around(Index cell, int reach) const {
+    constexpr int farthest = 8;
+    const int x = static_cast<int>(cell) % nearest_.width, y = static_cast<int>(cell) / nearest_.width;
+    std::vector<Index> found;
+    for (int j = y - reach; j <= y + reach; ++j)
+      for (int i = x - reach; i <= x + reach; ++i)
+        if (nearest_.contains(i, j) && nearest_.at(i, j) != no_index) found.push_back(nearest_.at(i, j));
+    return found.empty() && reach < farthest ? around(cell, 2 * reach + 1) : found;
+  }
+
+ private:
+  // Of the points in a cell, keeps the one that is nearest to the depth at which the cell is drawn.
+  void add(Index point, const Vec3f& place) {
+    const Vec2f at = (place.head<2>() - front_.corner) / front_.cell;
+    const Vec2f size(static_cast<float>(nearest_.width), static_cast<float>(nearest_.height));
+    if (!((at.array() >= 0).all() && (at.array() < size.array()).all())) return;
+    const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+    const float distance = front_.is_covered(x, y) ? std::abs(place.z() - front_.depth.at(x, y)) : 0;
+    if (!(distance < distance_.at(x, y))) return;
+    distance_.at(x, y) = distance;
+    nearest_.at(x, y) = point;
+  }
+
+  const FrontCells& front_;
+  Image<Index> nearest_;
+  Image<float> distance_;
+};
+
+Colour mean_colour(std::span<const Colour> colours, std::span<const Index> points) {
+  std::array<std::size_t, 3> sum{};
+  for (const Index i : points)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += colours[i][k];
+  Colour mean{255, 255, 255};
+  for (std::size_t k = 0; k < 3 && !points.empty(); ++k)
+    mean[k] = static_cast<std::uint8_t>(sum[k] / points.size());
+  return mean;
+}
+
+// Gives the surface's points the colours and own heights of the scan's points that are visible there.
+void put_values(const TurningScan& scan, const FrontCells& front, int step, Surface& surface) {
+  if (scan.colours.empty() && scan.own_heights.empty()) return;
+  const PointsInFront in_front(scan, surface.view, front, step);
+  if (!scan.colours.empty()) surface.colours.resize(surface.points.size());
+  if (!scan.own_heights.empty()) surface.own_heights.resize(surface.points.size());
+  parallel_for(
+      surface.points.size(),
+      [&](std::size_t i) {
+        const Vec2f at = (surface.points[i].head<2>().cast<float>() - front.corner) / front.cell;
+        const auto cell =
+            static_cast<Index>(front.normal.index(static_cast<int>(at.x()), static_cast<int>(at.y())));
+        if (!scan.colours.empty())
+          surface.colours[i] = mean_colour(scan.colours, in_front.around(cell, step / 2));
+        if (scan.own_heights.empty()) return;
+        // Heights of different models have no mean, so the nearest point decides.
+        const std::vector<Index> nearest = in_front.around(cell, 0);
+        surface.own_heights[i] = nearest.empty() ? 0 : scan.own_heights[nearest.front()];
+      },
+      1024);
+}
+
 // Returns the boundary. A triangle is inside if the front covers at least three of four positions: the
 // centre of the triangle, and the midpoints of its sides.
 Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
@@ -200,6 +275,10 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
     points[i] = {cloud.points[from].cast<float>(), sign * cloud.normals[from],
                  static_cast<float>(local * sparser)};
   });
+  for (std::size_t from = 0; from < cloud.size(); from += stride) {
+    if (measured.cloud().has_colours()) colours.push_back(measured.cloud().colours[from]);
+    if (!measured.cloud().own_heights.empty()) own_heights.push_back(measured.cloud().own_heights[from]);
+  }
 }
 
 TurningScan TurningScan::without_plane(const Surface& surface) const {
@@ -212,13 +291,17 @@ TurningScan TurningScan::without_plane(const Surface& surface) const {
   const Vec3 shift = centre - surface.centre;
   const Eigen::Matrix3f rotation = R.cast<float>();
   const Vec3f normal = plane.normal.cast<float>();
-  std::erase_if(rest.points, [&](const FrontPoint& p) {
+  const std::vector<Index> kept = indices_where(points.size(), [&](Index i) {
+    const FrontPoint& p = points[i];
     const Vec3f n = rotation * p.normal;
     const bool is_reversed = do_normals_face_viewer && n.dot(normal) < 0;
     const Vec3 place = R * (p.place.cast<double>() + shift);
     const Vec3f oriented = is_reversed ? Vec3f(-n) : n;
-    return plane.takes(place, oriented) || thicker.takes(place, oriented);
+    return !plane.takes(place, oriented) && !thicker.takes(place, oriented);
   });
+  rest.points = pick(points, kept);
+  rest.colours = pick(colours, kept);
+  rest.own_heights = pick(own_heights, kept);
   return rest;
 }
 
@@ -248,9 +331,10 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
   surface.triangulation.neighbours = {};
   surface.curvature = normalise(k);
   surface.view = view;
+  put_values(scan, made.front, choice.reach(), surface);
   surface.centre = scan.centre;
   surface.rho = choice.spacing() * static_cast<double>(made.front.cell);
-  surface.diagonal = scan.diagonal;
+  surface.diagonal = view.crop == Crop{} ? scan.diagonal : static_cast<double>(made.front.diagonal);
   surface.input_points = scan.points.size();
   surface.visible_points = surface.points.size();
   return made;

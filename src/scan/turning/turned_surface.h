@@ -31,6 +31,8 @@ struct FrontCells {
   Image8 is_behind;              // whether the cell contains a point that faces away
   Image8 is_edge;                // whether the surface ends or jumps at a covered cell; set by mark_edges()
   std::size_t covered = 0;       // number of cells with a normal
+  // Diagonal of the box, in the axes of the scan, of the points inside the crop; 0 without a crop.
+  float diagonal = 0;
 
   Vec2f centre(int x, int y) const {
     return corner + cell * Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F);
@@ -60,6 +62,9 @@ struct TurningScan {
   explicit TurningScan(const MeasuredCloud& measured);
 
   std::vector<FrontPoint> points;
+  // Per point, or empty; see Cloud.
+  std::vector<Colour> colours;
+  std::vector<float> own_heights;
   bool do_normals_face_viewer = false;  // true if signs are unknown; each normal is then turned to the viewer
   Vec3 centre = Vec3::Zero();           // see Surface::centre
   double rho = 0, diagonal = 0;
