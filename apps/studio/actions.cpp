@@ -45,9 +45,12 @@ std::string* text_of(Json& options, const char* option) {
 
 std::vector<Json*> option_lists(Json& project) {
   std::vector<Json*> lists{&project["options"]};
-  if (Json& studio = project["studio"]; studio.is_object() && studio.contains("snapshots"))
-    for (Json& snapshot : studio["snapshots"])
-      if (snapshot.is_object()) lists.push_back(&snapshot["options"]);
+  if (Json& studio = project["studio"]; studio.is_object()) {
+    if (studio.contains("kept")) lists.push_back(&studio["kept"]);
+    if (studio.contains("snapshots"))
+      for (Json& snapshot : studio["snapshots"])
+        if (snapshot.is_object()) lists.push_back(&snapshot["options"]);
+  }
   std::erase_if(lists, [](const Json* list) { return !list->is_object(); });
   return lists;
 }
@@ -124,16 +127,24 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
 }
 
 // Answers with the document of a scan and its stored state. If the scan's file is missing, but the user has
-// dropped a file with the same bytes on the page, the document uses that file instead.
+// dropped a file with the same bytes on the page, the document uses that file instead; `moved` is then the
+// stored state of the missing file's document.
 Result<Answer> Actions::document(const Json& json) {
   RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);
-  if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
+  Json moved;
+  if (const auto same = is_there(input) ? std::nullopt : store_.find_scan(input.hash)) {
+    RELIEVO_TRY(moved, kept_state(document_of(input)));
+    input = *same;
+  }
   RELIEVO_CHECK(check_place(input));
   const std::string id = document_of(input);
   RELIEVO_TRY(const Json kept, kept_state(id));
-  return answer_of(
-      Json{{"document", id}, {"input", to_json(input)}, {"is_there", is_there(input)}, {"kept", kept}});
+  return answer_of(Json{{"document", id},
+                        {"input", to_json(input)},
+                        {"is_there", is_there(input)},
+                        {"kept", kept},
+                        {"moved", moved}});
 }
 
 Result<Answer> Actions::open(const Json& json) {
@@ -168,6 +179,11 @@ Result<Answer> Actions::keep(const Json& json) {
   if (time_of(state) < newest)
     return answer_of(Json{{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
   RELIEVO_CHECK(store_.keep_document(id, state.dump(), json.value("is_moving", false)));
+  // Once a page has taken the project with which the program was started, the project's document has newer work.
+  if (first_.contains("options")) {
+    RELIEVO_TRY(const ScanSource first, input_in(first_));
+    if (document_of(first) == id) first_.erase("options");
+  }
   opened_.with([&](std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
     if (found == opened.end()) return;

@@ -54,6 +54,13 @@ export const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 // Unit vector of each arrow key: x to the right, y up.
 export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
 
+// The largest number of pixels of a picture. It is just below the engine's limit; a screen of 5,120 x 2,880 has more.
+const MOST_PIXELS = 7.9e6;
+
+// Returns the number of a fine picture's pixels per pixel of the page, or `wanted` if such a picture is not too large.
+export const pictureScale = ({width, height}, wanted = Math.min(devicePixelRatio, 2)) =>
+  Math.min(wanted, Math.sqrt(MOST_PIXELS / (width * height)));
+
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
   if (canvas.height !== image.height) canvas.height = image.height;

@@ -1,7 +1,7 @@
 // Computes with vectors, which are arrays of three numbers, and converts between a view's options and its directions.
 // Directions are unit vectors: `towards` points to the viewer, and `up` points upwards.
 
-import {about} from "./about.js";
+import {about, namesOf} from "./about.js";
 import {sentence} from "./controls.js";
 
 export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -35,6 +35,11 @@ export function directionsOf({view, up}) {
   const towards = unit(SIDES[view]?.towards ?? triple(view));
   return {towards, up: upright(up ? triple(up) : SIDES[view]?.up ?? [0, 1, 0], towards)};
 }
+
+// Returns a text that names the picture of a scan seen from these directions. A scan that is read with other options,
+// such as another channel of a picture, has another box.
+export const pictureKey = (directions, {input, options}) =>
+  JSON.stringify([directions, input, namesOf("input").map((name) => options[name])]);
 
 // Returns the options of a view: the name of a side, or the directions of any other view.
 export function optionsOf({towards, up}) {

@@ -2,7 +2,7 @@
 // data, so it can be stored and saved as JSON.
 
 import {about, defaultOf, namesOf, optionOf} from "./about.js";
-import {packedSteps, snapshotsIn, unpackedSteps} from "./snapshots.js";
+import {knownOptions, packedSteps, snapshotsIn, unpackedSteps} from "./snapshots.js";
 
 // Returns the value of an option in a new document: the studio's own default, or the engine's if there is none.
 const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
@@ -112,6 +112,9 @@ export class Document {
     return true;
   }
 
+  // Returns whether one of the steps has the settings of this one; its scan may have another path.
+  has = (settings) => this.steps.some((step) => isSameStep(withPart(step, {...settings, input: step.input}), step));
+
   // Changes the current step to values that the engine has found. Adds no step.
   note(part) {
     this.steps[this.at] = withPart(this.now, part);
@@ -220,11 +223,15 @@ export function shownOptions(step) {
   return options;
 }
 
+// Returns the content of a project file. `studio.kept` has the options that do not apply to this kind of piece, such as
+// the letters of a lithophane. The document keeps them for other kinds.
 export function projectOf(step) {
-  const {input, isHeightLocked, u, isDieOfPiece, material, light, snapshots} = step;
+  const {input, isHeightLocked, u, isDieOfPiece, material, light, snapshots} = step, options = engineOptions(step);
+  const kept = Object.fromEntries(Object.entries(step.options).filter(([name, value]) => !(name in options) &&
+    name !== "height-of-diagonal" && (value ?? "") !== "" && value !== FIRST.options[name]));
   const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece}),
-    ...(snapshots.length > 0 && {snapshots})};
-  return {relievo: 1, input, options: engineOptions(step), studio};
+    ...(Object.keys(kept).length > 0 && {kept}), ...(snapshots.length > 0 && {snapshots})};
+  return {relievo: 1, input, options, studio};
 }
 
 // Returns whether a direction of light is valid. With an invalid one from a project file, the engine would refuse every
@@ -244,7 +251,9 @@ export function studioPart({isHeightLocked, isDieOfPiece, u, material, light}) {
 export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {}, studio = {}}) {
   const options = hasScale({options: own}) ? {...own, method: FIRST.options.method} : own;
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
-  const step = {...FIRST, input, options: {...FIRST.options, ...usual, method, width: null, ...options}};
+  // The engine states defaults for all options, so those that the project keeps come last.
+  const step = {...FIRST, input,
+    options: {...FIRST.options, ...usual, method, width: null, ...options, ...knownOptions(studio.kept)}};
   if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;
     step.u = uOfAlpha(alpha ?? defaultOf("alpha"), step.options.saturation);

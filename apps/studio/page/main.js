@@ -156,7 +156,7 @@ function showDocument() {
   const {options, material, input} = doc.now;
   sliders.show();
   const isPaper = options.method === "paper"; // the paper's method has no tone curve
-  $("#tone-curve").hidden = isPaper || hasScale(doc.now);
+  $("#tone-curve").hidden = isPaper || hasScale(doc.now) || options.form === "lithophane";
   curve.show({tone: isPaper ? "" : options.tone});
   pieces.show();
   kinds.show();

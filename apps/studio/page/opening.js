@@ -6,6 +6,7 @@ import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
 import {inWords} from "./panels/pieces.js";
+import {unpackedSteps} from "./snapshots.js";
 
 const PREPARED = namesOf("input", "view", "model");
 
@@ -29,6 +30,9 @@ const withSide = (wanted, {view, up}) => (wanted.view === "auto" ? {...wanted, v
 const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps.map((step) => ({...step, input})),
   at});
 
+// Returns the `work` of a stored state, see OpenDocument.open(); null if there is no state.
+const workOf = (kept) => (kept ? {steps: unpackedSteps(kept), at: kept.at} : null);
+
 export class OpenDocument {
   // Calls these functions of `on`:
   //   begun(former)         when another document is shown; `former` is the input of the former document, or null
@@ -36,7 +40,7 @@ export class OpenDocument {
   //   measured(status)      when pictures of the first view can be drawn although this view is not yet prepared
   //   arrived(status)       when the model is ready
   //   changed()             when a newer state came from another tab or engine
-  //   missing(input, kept)  if the scan is missing
+  //   missing(input, work)  if the scan is missing
   //   refused(why)          if the view cannot be prepared; `why` is "" if the user cancelled the preparation
   //   failed(error)         after any other error
   //   closed()              when no document is left to show
@@ -56,17 +60,18 @@ export class OpenDocument {
 
   // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. If no
   // state of the document is stored, it gets all steps of `work`. Otherwise only the step `at` is added to its stored
-  // steps.
+  // steps. If the engine uses another file with the same bytes, `moved` is the state of the document of the missing
+  // file. Its current step is added in the same way, unless the other file's document has that step.
   async open(input, work = null) {
-    const found = await this.engine.find(input);
-    if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
+    const found = await this.engine.find(input), moved = workOf(found.moved);
+    if (!found.is_there) return this.on.missing(found.input, work ?? workOf(found.kept));
     const former = this.isReady && this.id !== found.document ? this.input : null;
     const copy = this.keeper.copyOf(found.document), {kept} = found;
     const newest = copy && copy.changed > (kept?.changed ?? -1) ? copy : kept;
     this.former = former;
     this.id = this.engine.document = found.document;
-    this.takeState(newest, found.input, work);
-    if (work || (copy && newest === copy)) this.keep(); // a new document is stored after its scan was read
+    this.takeState(newest, found.input, work, moved);
+    if (work || moved || (copy && newest === copy)) this.keep(); // a new document is stored after its scan was read
     this.isKept = Boolean(newest);
     this.model = 0;
     this.asked = null;
@@ -110,11 +115,11 @@ export class OpenDocument {
     await this.engine.cancel();
   }
 
-  takeState(newest, input, work) {
-    const {doc} = this;
+  takeState(newest, input, work, moved) {
+    const {doc} = this, other = work ?? moved;
     if (newest && doc.restore(newest)) {
-      if (work) doc.append({...work.steps[work.at], input});
-    } else if (!(work && doc.restore(withInput(work, input)))) doc.begin({...FIRST, input});
+      if (other && (work || !doc.has(other.steps[other.at]))) doc.append({...other.steps[other.at], input});
+    } else if (!(other && doc.restore(withInput(other, input)))) doc.begin({...FIRST, input});
   }
 
   keep(isMoving = false) {

@@ -22,11 +22,22 @@ export class Outcome {
   // reach, these options have the height of the picture.
   async known() {
     await this.entered();
-    const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), facts = this.facts();
-    const isMissed = Boolean(isShown && facts && !facts.is_height_met), asked = options.height;
-    if (isMissed) options.height = facts.height_mm;
+    const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), asked = options.height;
+    const reached = isShown ? await this.heightOutOfReach(options) : null, isMissed = reached !== null;
+    if (isMissed) options.height = reached;
     const note = isMissed && now.isHeightLocked ? `A height of ${withUnit(asked)} is out of reach here.` : "";
     return {options, note, name: fileName(now), material: now.material, step: now};
+  }
+
+  // Returns the height of the picture if the wanted height is out of reach; null otherwise. The light table shows no
+  // finished piece, so there the engine is asked.
+  async heightOutOfReach(options) {
+    const facts = this.facts();
+    if (this.stage.isTable && options.draft && options.form !== "lithophane") {
+      const most = await this.stage.engine.reach(options);
+      if (most < options.height) return most;
+    }
+    return facts && !facts.is_height_met ? facts.height_mm : null;
   }
 
   // Returns the document's step, with the height that its exported files have.

@@ -24,15 +24,19 @@ export function freeName(snapshots) {
   return `Snapshot ${number}`;
 }
 
-// Returns the valid snapshots of a project file. Leaves out options that this version does not know, and options whose
-// value has a wrong type.
+// Returns the options of a project file without those that this version does not know, or whose value has a wrong type.
+export function knownOptions(options) {
+  const isLike = (value, known) =>
+    value === null || (typeof value !== "object" && (known === null || typeof value === typeof known));
+  return Object.fromEntries(Object.entries(options ?? {}).filter(([key, value]) =>
+    key in FIRST.options && isLike(value, FIRST.options[key])));
+}
+
+// Returns the valid snapshots of a project file.
 export function snapshotsIn(list) {
-  const isLike = (value, known) => value === null || known === null || typeof value === typeof known;
   const isSnapshot = (each) => typeof each?.name === "string" && each.options && typeof each.options === "object";
   return (Array.isArray(list) ? list : []).filter(isSnapshot).slice(0, MOST_SNAPSHOTS).map(({name, options, ...own}) =>
-    snapshotOf({...FIRST, ...studioPart(own), options: Object.fromEntries(Object.entries(options).filter(
-      ([key, value]) => key in FIRST.options && typeof value !== "object" && isLike(value, FIRST.options[key])))},
-    name.slice(0, 80)));
+    snapshotOf({...FIRST, ...studioPart(own), options: knownOptions(options)}, name.slice(0, 80)));
 }
 
 // Packs steps so that what they share is stored only once: lists of snapshots, snapshots, and strokes. In the result,

@@ -26,6 +26,13 @@ async function send(path, options) {
   return response;
 }
 
+// Throws the reason why an upload failed: a folder, or a file that has changed or may not be read, cannot be sent.
+async function explain(error, file) {
+  const isReadable = error.kind !== "lost" || await file.slice(0, 1).arrayBuffer().then(() => true, () => false);
+  throw isReadable ? error
+    : new EngineError({kind: "input", input: file.name, text: `${file.name}: expected a file that can be read`});
+}
+
 export class Transport {
   traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, slowMs: 55};
 
@@ -34,7 +41,8 @@ export class Transport {
   async call(name, request, {files: [file] = [], signal} = {}) {
     const path = file ? `api/${name}?name=${encodeURIComponent(file.name)}` : `api/${name}`;
     const body = file ?? JSON.stringify(request), keepalive = name === "leave";
-    const response = await send(path, request ? {method: "POST", body, signal, keepalive} : {});
+    const sent = send(path, request ? {method: "POST", body, signal, keepalive} : {});
+    const response = await (file ? sent.catch((error) => explain(error, file)) : sent);
     if (response.headers.get("Content-Type") === "application/json") return {body: await response.json()};
     const facts = response.headers.get("X-Relievo");
     if (!facts) return {body: await response.blob()};

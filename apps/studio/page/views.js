@@ -1,7 +1,7 @@
 // Shows the dialog in which the user chooses the view: one of the six sides, or any view by turning the model.
 
 import {$, ARROWS, Pause, make, oneAtATime, paint} from "./controls.js";
-import {SIDES, directionsOf, optionsOf, turnedByHand, viewName} from "./directions.js";
+import {SIDES, directionsOf, optionsOf, pictureKey, turnedByHand, viewName} from "./directions.js";
 
 const SIDE = {width: 120, height: 90}; // size of a side's picture in pixels
 
@@ -24,10 +24,11 @@ export class ViewDialog {
 
   // Shows a picture of the document's view beside the view's name. The name alone may be misleading, because sides
   // refer to the axes of the file, and a figure may lie on its back in the file.
-  async tell({options, input}, isThere) {
+  async tell(step, isThere) {
+    const {options} = step;
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
-    const key = isThere && directions ? JSON.stringify([directions, input]) : "";
+    const key = isThere && directions ? pictureKey(directions, step) : "";
     if (key === this.told) return; // nothing has changed; this method runs for each event of a drag
     this.told = key;
     picture.hidden = true;

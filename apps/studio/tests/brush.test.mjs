@@ -311,4 +311,8 @@ test("says why a piece cannot be painted", async () => {
   await draw("raise", [0.5, 0.5]);
   await toast().getByText(/bent cannot be painted/).waitFor();
   await takeBack();
+  await choose("Lithophane");
+  await draw("raise", [0.5, 0.5]);
+  await toast().getByText(/lithophane is made from light and colours/).waitFor();
+  await takeBack();
 });

@@ -210,8 +210,11 @@ test("reads the strokes of a project from a file beside it, as make does", async
   assert.ok(made.equals(make(scan, "--width", 40, "--strokes", list)));
   assert.ok(!made.equals(make(scan, "--width", 40)));
   const other = await new EngineProcess(temporaryFolder(), project).ready(), {first} = await other.about();
-  await other.stop();
   assert.deepEqual(JSON.parse(first.options.strokes), strokes);
+  const {document} = await other.json("document", {input: first.input});
+  await other.json("state", {document, state: {version: 1, changed: 1, at: 0, steps: [{input: first.input}]}});
+  assert.equal((await other.about()).first.options, undefined, "the document has newer work now");
+  await other.stop();
 });
 
 test("packs a scan into a project, from which make and another machine make the same", async () => {

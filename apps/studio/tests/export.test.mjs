@@ -70,6 +70,17 @@ test("says of each format how large its file becomes", async () => {
   await cancel();
 });
 
+test("lowers a height that a draft angle does not allow, also while the light table is shown", async () => {
+  await enter(page.locator("#resolution"), "0.5");
+  await enter(page.locator("#draft"), "40");
+  await set("Height in mm", 16);
+  await untilReady(page);
+  await open();
+  await dialog().getByText(/A height of 16\.00 mm is out of reach here/).waitFor();
+  await dialog().getByText(/triangles/).waitFor();
+  await cancel();
+});
+
 test("exports nothing whose piece cannot be made, and says why", async () => {
   const error = {kind: "option", input: "rim-bevel", text: "rim-bevel: expected 1 mm"};
   const refuse = (route) => route.fulfill({status: 400, json: {error}});

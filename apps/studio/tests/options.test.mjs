@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {DESK, browser, button, engine, folder, found, page, scan, showFile, soon, startEngine, test, toast, undo,
-  undoAll, untilText, withBrowser} from "./page_suite.mjs";
+import {DESK, browser, button, engine, folder, found, page, savedProject, scan, showFile, soon, startEngine, test, toast,
+  undo, undoAll, untilText, withBrowser} from "./page_suite.mjs";
 import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeBallBeforeWall, writeColouredBall, writeSample}
   from "./support.mjs";
 
@@ -278,6 +278,10 @@ test("keeps tone curve and steps, which the paper's method does not have, for th
   await untilReady(page);
   assert.equal(await control("steps").isDisabled(), true);
   assert.equal(await page.locator("#tone-curve").isVisible(), false);
+  writeFileSync(file, await savedProject());
+  assert.equal(JSON.parse(readFileSync(file)).options.tone, undefined);
+  await page.locator("#file").setInputFiles(file);
+  await untilReady(page);
   await set("method", "layered");
   await reaches(hasBoth);
 });

@@ -104,6 +104,8 @@ test("draws no more pixels on a large screen than the engine makes", async () =>
   await untilReady(screen);
   const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
   assert.ok(width * height > 6e6 && width * height <= 8e6, `${width} x ${height}`);
+  await radio("Crop", screen).click();
+  await screen.locator("#crop-frame .frame").waitFor();
   await soon.equal(() => screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
   await large.close();
 });

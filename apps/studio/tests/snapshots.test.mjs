@@ -99,11 +99,14 @@ test("keeps snapshots in a project, without what is none", async () => {
   assert.deepEqual(project.studio.snapshots.map(({name}) => name), ["Flat", "Snapshot 2"]);
   assert.ok(JSON.stringify(project.studio.snapshots).length < 1500, "options that a new document has are left out");
   project.studio.snapshots.push({name: 3, options: {}}, {name: "none"}, "none",
-    {name: "odd", options: {height: "high", width: 40, unknown: 3, crop: {}}, light: [0, 0, 0], u: -1});
+    {name: "odd", options: {height: "high", width: 40, unknown: 3, crop: {}}, light: [0, 0, 0], u: -1},
+    {name: "as wide as fits", options: {diameter: 60, outline: "circle", width: null}});
   const file = path.join(folder, "snapshots.relievo");
   writeFileSync(file, JSON.stringify(project));
   await page.locator("#file").setInputFiles(file);
-  await soon.deepEqual(names, ["Flat", "Snapshot 2", "odd"]);
+  await soon.deepEqual(names, ["Flat", "Snapshot 2", "odd", "as wide as fits"]);
+  const {snapshots} = JSON.parse(await savedProject()).studio;
+  assert.equal(snapshots.at(-1).options.width, null);
   await untilTaken();
   await button("Apply odd").click();
   await soon.equal(() => text("Longer side in mm"), "40.0");

@@ -48,6 +48,7 @@ test("works in nine tabs at once, whichever has the stream of events", async () 
 });
 
 const title = (of) => of.locator("#title");
+const snapshots = (of) => of.locator("#snapshot-list input").evaluateAll((all) => all.map(({value}) => value));
 const height = (of) => field("Height in mm", of);
 const setHeight = (of, text) => enter(height(of), text);
 const untilSaid = (of, text) => toast(of).getByText(text, {exact: true}).waitFor();
@@ -73,8 +74,18 @@ const untilTold = (of, tabs) => eventually(async () => {
 
 test("shows two scans in two tabs, and mixes up nothing", async () => {
   const [tab, other] = [await newTab(), await newTab()];
+  let camera;
+  other.on("request", (request) => {
+    if (!request.url().endsWith("/api/picture")) return;
+    const asked = request.postDataJSON();
+    if (asked.width > 200) ({camera} = asked); // the pictures of the kinds are smaller
+  });
   await setHeight(tab, "3.25");
+  await other.mouse.move(...await middleOf(other.locator("#stage")));
+  await other.mouse.wheel(0, -300);
+  await soon.ok(() => camera?.zoom > 1.1);
   await openScan(other, "shell");
+  assert.equal(camera.zoom, 1);
   await setHeight(other, "1.5");
   for (const each of [tab, other]) await untilTold(each, [tab, other]);
   const titles = () => Promise.all([tab, other].map((each) => title(each).innerText()));
@@ -232,6 +243,9 @@ test("asks for a scan that has moved, takes no other for it unasked, and goes on
   await engine.stop(); // the engine may have ended already, since no page was open for a while
   await startEngine(scan);
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
+  await openPanels(tab);
+  await button("Take a snapshot", tab).click();
+  await soon.deepEqual(() => snapshots(tab), ["Snapshot 1"]);
   await openScan(tab, "shell");
   renameSync(scan, moved);
   const answerWith = async (offered, file) => { // see openFile()
@@ -264,6 +278,10 @@ test("asks for a scan that has moved, takes no other for it unasked, and goes on
   await answerWith("Locate another file", moved);
   await untilPoints(tab, "20,000");
   await soon.equal(() => height(tab).inputValue(), "6.50");
+  await soon.deepEqual(() => snapshots(tab), ["Snapshot 1"]);
+  const {input} = before.steps[before.at], copy = await engine.json("document", {input});
+  assert.ok(copy.is_there && copy.input.path !== scan);
+  assert.deepEqual(copy.moved, before);
   await tab.close();
 });
 

@@ -21,8 +21,10 @@ export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 // Returns the paths of the files that options name: the height map of a base, fonts and drawings.
 export const pathsIn = (options = {}) => [options["base-image"], ...filesIn(options)].filter(Boolean);
 
-// Returns a list of options: those of a project, and those of each of its snapshots.
-export const optionsIn = ({options, studio}) => [options, ...(studio?.snapshots ?? []).map((snapshot) => snapshot.options)];
+// Returns a list of options: those of a project, those that it keeps for other kinds of pieces, and those of each of its
+// snapshots.
+export const optionsIn = ({options, studio}) => [options, studio?.kept ?? {},
+  ...(studio?.snapshots ?? []).map((snapshot) => snapshot.options)];
 
 // Returns the hashes, as hexadecimal digits, of all files that the state of a document needs.
 export const scansOf = (state) => [scanOf(inputOf(state)),

@@ -171,6 +171,13 @@ test("a project opens with its scan, and several files as a scene", options, asy
   await other.studio.open(scan("shell.ply"), scan("urn.ply"));
   await other.studio.page.getByText("scene.json", {exact: true}).waitFor();
   await other.studio.untilReady("[\\d,]+");
+  const documentOfScene = () => other.studio.page.evaluate(() => location.hash), scene = await documentOfScene();
+  fs.mkdirSync(path.join(scans, "others"), {recursive: true});
+  for (const [name, copy] of [["urn.ply", "shell.ply"], ["shell.ply", "urn.ply"]]) // the same names, other scans
+    fs.copyFileSync(scan(name), scan(path.join("others", copy)));
+  await other.studio.open(...["shell.ply", "urn.ply"].map((name) => scan(path.join("others", name))));
+  await other.studio.page.waitForFunction((former) => location.hash !== former, scene);
+  await other.studio.untilReady("[\\d,]+");
   assert.deepEqual(other.studio.errors, []);
 });
 

@@ -99,6 +99,8 @@ export class Brush {
       return "Wait until the view is prepared: then the relief can be painted.";
     if (now.options.method === "paper")
       return "The method “All forms alike” takes no strokes: choose the other method to paint.";
+    if (now.options.form === "lithophane")
+      return "A lithophane is made from light and colours, not from heights: choose another kind to paint.";
     if (hasScale(now)) return "One vertical scale gives the heights: they cannot be painted.";
     return facts.relief_mm ? "" : "A piece that is bent cannot be painted: choose another kind, paint, and come back.";
   }

@@ -1,8 +1,8 @@
 // Crops the scan: shows a picture of the whole scan with a frame that the user draws, moves and resizes. The relief
 // leaves out everything outside the frame.
 
-import {$, clamp, make, paint, placeIn} from "../controls.js";
-import {directionsOf} from "../directions.js";
+import {$, clamp, make, paint, pictureScale, placeIn} from "../controls.js";
+import {directionsOf, pictureKey} from "../directions.js";
 import {WHOLE, cropText, numbersOf} from "../panels/scan_panel.js";
 
 const LEAST = 0.05; // least width and height of the frame, as a share of the scan's box
@@ -72,12 +72,12 @@ export class CropFrame {
     if (this.element.hidden) return; // must come first: reading sizes makes the browser compute the layout
     const {clientWidth: width, clientHeight: height} = this.element, directions = directionsOf(this.doc.now.options);
     if (!width || !directions) return;
-    const key = JSON.stringify([directions, width, height, this.doc.now.input]);
+    const key = `${width} x ${height} ${pictureKey(directions, this.doc.now)}`;
     if (key === this.key) return this.draw();
     this.key = key;
     this.box = null;
     try {
-      const scale = Math.min(devicePixelRatio, 2), [wide, high] = [width, height].map((x) => Math.round(x * scale));
+      const scale = pictureScale({width, height}), [wide, high] = [width, height].map((x) => Math.round(x * scale));
       const {image} = await this.engine.scan({...directions, width: wide, height: high});
       if (key !== this.key) return;
       paint(this.canvas, image);

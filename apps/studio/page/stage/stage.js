@@ -2,7 +2,7 @@
 // section the relief by mouse and keys.
 
 import {Comparing} from "./comparing.js";
-import {$, Pause, clamp, make, paint} from "../controls.js";
+import {$, Pause, clamp, make, paint, pictureScale} from "../controls.js";
 import {hasScale, shownOptions} from "../document.js";
 import {TABLE_LIGHTS} from "../lights.js";
 import {Measure} from "./measure.js";
@@ -14,8 +14,6 @@ import {Turning} from "./turning.js";
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const FINE_AFTER_MS = 160; // time without changes until the fine picture is requested
 const FINISHED_AFTER_MS = 500; // time without changes until the finished piece is requested
-// The largest number of pixels of a picture. It is just below the engine's limit; a screen of 5,120 x 2,880 has more.
-const MOST_PIXELS = 7.9e6;
 
 export class Stage {
   // Calls on.picture(facts, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() when the
@@ -65,7 +63,7 @@ export class Stage {
 
   // Prepares for another scan, which has no pictures yet, and removes all marks of the former one.
   clear() {
-    Object.assign(this, {isReady: false, model: 0, facts: null, line: null});
+    Object.assign(this, {isReady: false, model: 0, facts: null, line: null, camera: {...FRONT}});
     this.measure.clear();
     this.drawOverlay();
   }
@@ -134,8 +132,7 @@ export class Stage {
   }
 
   pictureSize(isFine) {
-    const {width, height} = this.size, most = Math.sqrt(MOST_PIXELS / (width * height));
-    const scale = Math.min(isFine ? Math.min(window.devicePixelRatio, 2) : this.share, most);
+    const {width, height} = this.size, scale = pictureScale(this.size, isFine ? undefined : this.share);
     return {width: Math.round(width * scale), height: Math.round(height * scale)};
   }
 
