@@ -318,12 +318,11 @@ std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::ve
   return skipped;
 }
 
-bool is_path(const std::string& option, const std::string& value) {
-  std::error_code ignored;
-  const OptionRow* const row = find_option(option);
-  const bool may_be_file =
-      option == "base-image" || option == "camera" || (row && (row->unit == "FILE" || row->unit == "JSON"));
-  return may_be_file && fs::is_regular_file(value, ignored);
+std::vector<InputFile> files_of(const Job& job) {
+  std::vector<InputFile> files = files_read_with(job.file);
+  for (const auto& [option, value] : job.options)
+    for (std::string& file : files_in_option(option, value)) files.push_back({std::move(file)});
+  return files;
 }
 
 Json to_json(const Job& job) {

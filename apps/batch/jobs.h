@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/input_files.h"
 #include "relievo/core/error.h"
 
 namespace relievo::app::batch {
@@ -63,13 +64,9 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
 // a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
-// Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file
-// refers, and the files that options name. For a file that is missing or cannot be parsed, only its own path
-// is returned.
-std::vector<std::string> files_of(const Job& job);
-
-// Returns whether the option accepts the path of a file and `value` is the path of an existing file.
-bool is_path(const std::string& option, const std::string& value);
+// Returns the files that the job reads: its scan with the files to which it refers, and the files that options
+// name.
+std::vector<InputFile> files_of(const Job& job);
 
 nlohmann::json to_json(const Job& job);
 

@@ -12,6 +12,7 @@ namespace relievo {
 namespace {
 
 using namespace test;
+using namespace app;
 using namespace app::batch;
 using Cells = std::vector<std::string>;
 
@@ -108,14 +109,16 @@ TEST_F(BatchJobs, NameWhatIsWrongInATable) {
   EXPECT_TRUE(error_of("file\n").contains("expected scans, found none"));
 }
 
-TEST_F(BatchJobs, ReadTheFilesThatScenesAndProjectsName) {
+TEST_F(BatchJobs, ReadTheFilesThatScenesProjectsAndOptionsName) {
   write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}]})");
   write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "s.json"}, "options": {}})");
-  write_all(folder_ / "m.gltf", R"({"buffers": [{"uri": "m.bin"}, {"uri": "data:,x"}]})");
+  write_all(folder_ / "l.json", R"([{"kind": "drawing", "file": "d.svg"}])");
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
-  EXPECT_EQ(files_of({"p", path("p.relievo"), {}}),
-            (Cells{path("p.relievo"), path("s.json"), path("torus.ply")}));
-  EXPECT_EQ(files_of({"m", path("m.gltf"), {}}), (Cells{path("m.gltf"), path("m.bin")}));
+  Cells files;
+  for (const InputFile& file : files_of({"p", path("p.relievo"), {{"ornaments", path("l.json")}}}))
+    files.push_back(file.path);
+  EXPECT_EQ(files,
+            (Cells{path("p.relievo"), path("s.json"), path("torus.ply"), path("l.json"), path("d.svg")}));
 }
 
 // More points need more memory, and each model of a scene adds its own.
