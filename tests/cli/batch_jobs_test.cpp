@@ -109,6 +109,28 @@ TEST_F(BatchJobs, NameWhatIsWrongInATable) {
   EXPECT_TRUE(error_of("file\n").contains("expected scans, found none"));
 }
 
+// The preview of a-heights.ply has the name that the height map of a.ply would have.
+TEST_F(BatchJobs, HaveOutputsOfDifferentNames) {
+  fs::remove(folder_ / "torus.ply");
+  for (const char* name : {"a.ply", "a-heights.ply", "contact-sheet.ply"}) write_all(folder_ / name, "");
+  const Catalogue catalogue{folder_.string(), "", (folder_ / "out").string(), {}, {"-heights.png", ".png"}};
+  const auto jobs = list_jobs(catalogue, {});
+  ASSERT_TRUE(jobs) << jobs.error().message();
+  std::vector<std::string> names;
+  for (const Job& job : *jobs) names.push_back(job.name);
+  EXPECT_EQ(names, (Cells{"a-heights", "a-2", "scan-contact-sheet"}));
+}
+
+TEST_F(BatchJobs, AreNamedInUtf8) {
+  write_all(folder_ / "caf\xe9.ply", "");
+  const auto jobs = list("");
+  ASSERT_FALSE(jobs);
+  EXPECT_TRUE(jobs.error().message().contains("expected names and options in UTF-8"))
+      << jobs.error().message();
+  expect_refusal("batch . -o out --list", "expected names and options in UTF-8");
+  EXPECT_TRUE(list_jobs({folder_.string(), "t*", (folder_ / "out").string(), {}}, {}));
+}
+
 TEST_F(BatchJobs, ReadTheFilesThatScenesProjectsAndOptionsName) {
   write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}]})");
   write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "s.json"}, "options": {}})");
