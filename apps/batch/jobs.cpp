@@ -34,18 +34,53 @@ bool is_scan_name(const std::string& path) {
   return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
 }
 
+// Returns whether the pages have pictures with such a name: contact-sheet.png, contact-sheet-2.png and so on.
+bool is_of_pages(const std::string& name) {
+  return name == "contact-sheet" || name.starts_with("contact-sheet-");
+}
+
+// Gives each job a name such that no two outputs of a run are the same file.
 class Names {
  public:
+  explicit Names(const std::vector<std::string>& endings) : endings_(endings) { endings_.emplace_back(); }
+
   std::string unused(const std::string& name) {
-    std::string unused = name;
-    for (int i = 2; !taken_.insert(unused).second; ++i) unused = cat(name, "-", i);
+    const std::string start = is_of_pages(name) ? "scan-" + name : name;
+    std::string unused = start;
+    for (int i = 2; !take(unused); ++i) unused = cat(start, "-", i);
     return unused;
   }
-  bool take(const std::string& name) { return taken_.insert(name).second; }
+  // Returns false if the job would write a file of another job, or a picture that the pages show.
+  bool take(const std::string& name) {
+    if (is_of_pages(name)) return false;
+    const auto is_taken = [&](const std::string& ending) { return taken_.contains(name + ending); };
+    if (std::ranges::any_of(endings_, is_taken)) return false;
+    for (const std::string& ending : endings_) taken_.insert(name + ending);
+    return true;
+  }
 
  private:
+  std::vector<std::string> endings_;
   std::set<std::string> taken_;
 };
+
+// nlohmann::json throws on other texts when a job is printed. It leaves out their wrong bytes or replaces them,
+// as it is told.
+bool is_utf8(const std::string& text) {
+  using Handler = Json::error_handler_t;
+  const Json json = text;
+  return json.dump(-1, ' ', false, Handler::ignore) == json.dump(-1, ' ', false, Handler::replace);
+}
+
+Result<void> check_texts(const Job& job, const std::string& catalogue) {
+  std::vector<std::string> texts{job.name, job.file};
+  for (const auto& [option, value] : job.options) texts.push_back(value);
+  const auto wrong = std::ranges::find_if_not(texts, is_utf8);
+  if (wrong == texts.end()) return {};
+  return input_error(catalogue, {},
+                     cat("expected names and options in UTF-8, found ",
+                         Json(*wrong).dump(-1, ' ', false, Json::error_handler_t::replace)));
+}
 
 // ------------------------------------------------------------------------------------------------- folders
 
@@ -90,7 +125,7 @@ Result<std::vector<Job>> jobs_of_folder(const Catalogue& catalogue) {
   });
   if (catalogue.match.empty()) leave_out_textures(paths);
   std::vector<Job> jobs;
-  Names names;
+  Names names(catalogue.endings);
   for (const fs::path& path : paths) {
     fs::path name = path.lexically_relative(catalogue.path);
     name.replace_extension();
@@ -109,15 +144,19 @@ bool is_inside(const std::string& name) {
 class TableJobs {
  public:
   TableJobs(const Table& table, const Catalogue& catalogue)
-      : table_(table), catalogue_(catalogue), folder_(fs::path(catalogue.path).parent_path()) {}
+      : table_(table),
+        catalogue_(catalogue),
+        folder_(fs::path(catalogue.path).parent_path()),
+        names_(catalogue.endings) {}
 
   Result<std::vector<Job>> list() {
     // The names in the column `name` are reserved first, so that no generated name equals one of them.
     for (const TableRow& row : table_.rows)
       if (const std::string& name = cell(row, "name"); !name.empty())
         if (!is_inside(name) || !names_.take(fs::path(name).lexically_normal().string()))
-          return fail(row,
-                      cat("expected a name that no other row has, inside the folder, found '", name, "'"));
+          return fail(
+              row, cat("expected a name inside the folder whose files no other row and no page has, found '",
+                       name, "'"));
     std::vector<Job> jobs;
     for (const TableRow& row : table_.rows) {
       if (cell(row, "file").empty()) return fail(row, "expected a file, found none");
@@ -303,6 +342,7 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
   RELIEVO_TRY(std::vector<Job> jobs,
               is_folder ? jobs_of_folder(resolved) : jobs_of_table(resolved, is_option));
   if (jobs.empty()) return input_error(catalogue.path, {}, "expected scans, found none");
+  for (const Job& job : jobs) RELIEVO_CHECK(check_texts(job, catalogue.path));
   return jobs;
 }
 
@@ -318,12 +358,11 @@ std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::ve
   return skipped;
 }
 
-bool is_path(const std::string& option, const std::string& value) {
-  std::error_code ignored;
-  const OptionRow* const row = find_option(option);
-  const bool may_be_file =
-      option == "base-image" || option == "camera" || (row && (row->unit == "FILE" || row->unit == "JSON"));
-  return may_be_file && fs::is_regular_file(value, ignored);
+std::vector<InputFile> files_of(const Job& job) {
+  std::vector<InputFile> files = files_read_with(job.file);
+  for (const auto& [option, value] : job.options)
+    for (std::string& file : files_in_option(option, value)) files.push_back({std::move(file)});
+  return files;
 }
 
 Json to_json(const Job& job) {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "common/input_files.h"
 #include "relievo/core/error.h"
 
 namespace relievo::app::batch {
@@ -45,6 +46,7 @@ struct Catalogue {
   std::string match;    // for a folder: a pattern of file names, such as "*.ply"; empty: all readable scans
   std::string outputs;  // the folder of the outputs, in which no scans are searched
   Options common;       // options of all scans; the table may override them for one scan
+  std::vector<std::string> endings = {};  // of the outputs of each job, which follow Job::name
 };
 
 // Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table, row
@@ -52,8 +54,8 @@ struct Catalogue {
 // has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a
 // column for each option for which is_option() returns true. For an empty cell, the option's value in
 // Catalogue::common applies. A job without a name is named after its file; -2 is appended if another job has
-// that name. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, if a
-// name in the table is not unique, or if a name leads out of the folder; kind option if the table has any
+// that name or an output that this job would have. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, if a
+// name in the table is not unique, if a name leads out of the folder, or if a text is not UTF-8; kind option if the table has any
 // other column.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
@@ -63,13 +65,9 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
 // a table.
 std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
 
-// Returns the files that the job reads: its scan, the files to which a scene, a project or a glTF file
-// refers, and the files that options name. For a file that is missing or cannot be parsed, only its own path
-// is returned.
-std::vector<std::string> files_of(const Job& job);
-
-// Returns whether the option accepts the path of a file and `value` is the path of an existing file.
-bool is_path(const std::string& option, const std::string& value);
+// Returns the files that the job reads: its scan with the files to which it refers, and the files that options
+// name.
+std::vector<InputFile> files_of(const Job& job);
 
 nlohmann::json to_json(const Job& job);
 

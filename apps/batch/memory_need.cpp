@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/io/read.h"
 
@@ -22,7 +23,8 @@ constexpr double mb = 1 << 20;
 // a small scan the blur of the normals may need 2^24 cells of 12 bytes, and the solid may need about half a
 // million samples. `bytes_per_point` covers reading, preparing and sampling a cloud.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
-                 bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
+                 bytes_per_texel = 8, bytes_per_visible_point = 900, streaming_mb = 40,
+                 bytes_per_streamed_point = 480;
 
 double number_or(const Options& options, const std::string& name, double otherwise) {
   const auto found = options.find(name);
@@ -32,14 +34,19 @@ double number_or(const Options& options, const std::string& name, double otherwi
   return value;
 }
 
+// Returns what the beginning of the file says about its size.
+ScanSize size_of(const std::string& path, std::uint64_t bytes) {
+  std::vector<char> head(std::min<std::uint64_t>(bytes, 1 << 16));
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  return scan_size(std::as_bytes(std::span(head)), path, bytes);
+}
+
 // Estimates the memory, in MB, that is needed to read one file and to make a relief of its points.
 double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
-  std::error_code failed;
-  const std::uintmax_t bytes = fs::file_size(path, failed);
-  if (failed) return 0;
-  std::vector<char> head(std::min<std::uintmax_t>(bytes, 1 << 16));
-  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
-  const ScanSize size = scan_size(std::as_bytes(std::span(head)), path, bytes);
+  const std::optional<std::uint64_t> known = file_size(path);
+  if (!known) return 0;
+  const std::uint64_t bytes = *known;
+  const ScanSize size = size_of(path, bytes);
   const auto points = static_cast<double>(size.points), triangles = static_cast<double>(size.triangles),
              pixels = static_cast<double>(size.pixels);
   const double visible = bytes_per_visible_point * wanted_points;
@@ -49,6 +56,14 @@ double need_of_file_mb(const std::string& path, double wanted_points, double str
                        bytes_per_triangle * triangles + bytes_per_pixel * pixels;
   const bool is_sampled = size.triangles + size.pixels > 0;
   return (cloud + (is_sampled ? visible : 0)) / mb;
+}
+
+// Estimates the memory, in MB, that a texture needs.
+double need_of_texture_mb(const std::string& path) {
+  const std::optional<std::uint64_t> bytes = file_size(path);
+  if (!bytes) return 0;
+  return (static_cast<double>(*bytes) + bytes_per_texel * static_cast<double>(size_of(path, *bytes).pixels)) /
+         mb;
 }
 
 double number_in(const std::string& path) {
@@ -81,7 +96,9 @@ double memory_need_mb(const Job& job) {
   const double points = number_or(job.options, "points", PointsWanted{}.points),
                stream_above_mb = number_or(job.options, "stream-above", InputArguments{}.stream_above_mb);
   double need = least_mb;
-  for (const std::string& file : files_of(job)) need += need_of_file_mb(file, points, stream_above_mb);
+  for (const InputFile& file : files_of(job))
+    need +=
+        file.is_texture ? need_of_texture_mb(file.path) : need_of_file_mb(file.path, points, stream_above_mb);
   return need;
 }
 

@@ -33,9 +33,9 @@ std::vector<OutputKind> all_kinds() {
 // version. Errors: those of read_file() for the job's scan.
 Result<std::string> hash_of_input(const Job& job, const std::vector<OutputKind>& kinds) {
   std::string text = cat("relievo ", version);
-  for (const std::string& file : files_of(job)) {
-    const Result<std::string> content = hash_of_file(file);
-    if (!content && file == job.file) return content;
+  for (const InputFile& file : files_of(job)) {
+    const Result<std::string> content = hash_of_file(file.path);
+    if (!content && file.path == job.file) return content;
     text += cat("\n", content.value_or("missing"));
   }
   for (const auto& [option, value] : job.options)

@@ -112,8 +112,9 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
   BatchOrder order;
   RELIEVO_TRY(order.settings, settings_of(arguments));
   const auto is_option = [](const std::string& name) { return shared_options().contains(name); };
-  const batch::Catalogue catalogue{arguments.input, arguments.match, order.settings.outputs,
-                                   given_options(command)};
+  batch::Catalogue catalogue{arguments.input, arguments.match, order.settings.outputs,
+                             given_options(command)};
+  for (const batch::OutputKind& kind : order.settings.kinds) catalogue.endings.push_back(kind.ending);
   RELIEVO_TRY(order.jobs, batch::list_jobs(catalogue, is_option));
   order.skipped = batch::skipped_files(catalogue, order.jobs);
   RELIEVO_CHECK(arguments.is_list ? batch::check_output_folder(arguments.outputs)

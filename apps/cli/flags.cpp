@@ -18,17 +18,39 @@ std::string exact_text(double number) {
 
 Result<std::string> length_in_mm(std::string_view text, LengthUnit bare) {
   RELIEVO_TRY(const double mm, parse_length(text, bare));
-  return exact_text(mm);
+  return exact_text(mm) + "mm";
+}
+
+// The option mm-per-value has its unit in its name, so --units does not apply to it.
+Result<std::string> scale_in_mm(std::string_view text, LengthUnit) {
+  return length_in_mm(text, LengthUnit::mm);
 }
 
 Result<std::string> plate_in_mm(std::string_view text, LengthUnit bare) {
   RELIEVO_TRY(const Vec2 mm, parse_plate_size(text, bare));
-  return cat(exact_text(mm.x()), "x", exact_text(mm.y()));
+  return cat(exact_text(mm.x()), "mmx", exact_text(mm.y()), "mm");
+}
+
+Result<std::string> shift_in_mm(std::string_view text, LengthUnit bare) {
+  RELIEVO_TRY(const Vec2 mm, parse_shift(text, bare));
+  return cat(exact_text(mm.x()), "mm,", exact_text(mm.y()), "mm");
 }
 
 Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {
   RELIEVO_TRY(const Tool tool, parse_tool(text, bare));
   return text_of(tool);
+}
+
+using InMm = Result<std::string> (*)(std::string_view, LengthUnit);
+
+// Returns the function that converts the option's lengths to millimetres; null if it has none.
+InMm converter_of(const OptionRow& option) {
+  if (option.name == "mm-per-value") return scale_in_mm;
+  if (option.is_length()) return length_in_mm;
+  if (option.unit == "TOOL") return tool_in_mm;
+  if (option.unit == "WxH") return plate_in_mm;
+  if (option.unit == "X,Y") return shift_in_mm;
+  return nullptr;
 }
 
 // Returns the unit that --units sets; millimetres if the user has not given that flag or the command lacks it.
@@ -39,8 +61,9 @@ LengthUnit unit_of(const CLI::App& command) {
 }
 
 // Converts a length to millimetres. If the text names no unit, the unit is that of --units, which may stand
-// before or after this flag.
-CLI::Validator in_mm(const CLI::App& command, Result<std::string> (*convert)(std::string_view, LengthUnit)) {
+// before or after this flag. The converted text names its unit, because `batch` gives it to `make` together
+// with --units, which may be another in a row of a table.
+CLI::Validator in_mm(const CLI::App& command, InMm convert) {
   const auto transform = [&command, convert](std::string& text) {
     const Result<std::string> mm = convert(text, unit_of(command));
     if (!mm) return mm.error().expected;
@@ -50,10 +73,33 @@ CLI::Validator in_mm(const CLI::App& command, Result<std::string> (*convert)(std
   return CLI::Validator(transform, "");
 }
 
+// Does the same, but leaves texts that are no length to the function that reads the flag.
+CLI::Validator length_in_mm_if_any(const CLI::App& command) {
+  const auto transform = [&command](std::string& text) {
+    text = length_in_mm(text, unit_of(command)).value_or(text);
+    return std::string();
+  };
+  return CLI::Validator(transform, "");
+}
+
 template <typename T>
 CLI::Option* add_flag(CLI::App& command, OptionValues& values, const OptionRow& option) {
   const auto take = [&values, &option](const T& value) { values[std::string(option.name)] = value; };
   return command.add_option_function<T>(cat("--", option.name), take);
+}
+
+// Adds a flag whose text in_mm() has converted before it is taken.
+CLI::Option* add_length_flag(CLI::App& command, OptionValues& values, const OptionRow& option) {
+  const auto take = [&values, &option](const std::string& mm) {
+    values[std::string(option.name)] = parse_length(mm).value_or(0);
+  };
+  return command.add_option_function<std::string>(cat("--", option.name), take);
+}
+
+CLI::Option* add_flag_of(CLI::App& command, OptionValues& values, const OptionRow& option) {
+  if (option.is_number() && option.is_length()) return add_length_flag(command, values, option);
+  if (option.is_number()) return add_flag<double>(command, values, option);
+  return add_flag<std::string>(command, values, option);
 }
 
 std::string initial_text(const OptionRow& option) {
@@ -80,12 +126,9 @@ void add_flags(CLI::App& command, OptionValues& values,
                const std::function<std::string(const OptionRow&)>& help) {
   for (const OptionRow& option : option_table()) {
     if (!is_wanted(option)) continue;
-    CLI::Option* const flag = option.is_number() ? add_flag<double>(command, values, option)
-                                                 : add_flag<std::string>(command, values, option);
+    CLI::Option* const flag = add_flag_of(command, values, option);
     flag->description(help(option))->type_name(std::string(option.unit))->default_str(initial_text(option));
-    if (option.is_length()) flag->transform(in_mm(command, length_in_mm));
-    if (option.unit == "TOOL") flag->transform(in_mm(command, tool_in_mm));
-    if (option.unit == "WxH") flag->transform(in_mm(command, plate_in_mm));
+    if (const InMm convert = converter_of(option)) flag->transform(in_mm(command, convert));
   }
 }
 
@@ -138,8 +181,12 @@ void add_make_options(CLI::App& command, MakeOptions& options) {
       ->capture_default_str();
   add_number(command, "--heightmap-size", options.files.heightmap_px, CLI::Range(16, 16384),
              "longer side of the height map in pixels [16 to 16384]");
-  for (const HeightMapFlag& flag : height_map_flags)
-    command.add_option(cat("--", flag.name), options.files.map.*flag.text, flag.help)->type_name(flag.unit);
+  for (const HeightMapFlag& flag : height_map_flags) {
+    CLI::Option* const option =
+        command.add_option(cat("--", flag.name), options.files.map.*flag.text, flag.help)
+            ->type_name(flag.unit);
+    if (std::string_view(flag.unit) == "MM") option->transform(length_in_mm_if_any(command));
+  }
   add_number(command, "--preview-size", options.files.preview_px, CLI::Range(16, 4096),
              "longer side of each of the preview's two views in pixels [16 to 4096]");
   command

@@ -53,7 +53,7 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
   order.values.insert(arguments.in.depth.begin(), arguments.in.depth.end());
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
   RELIEVO_CHECK(take_output(arguments));
-  RELIEVO_CHECK(check_outputs(arguments.files, known.paths(), known.options.tool.has_value()));
+  RELIEVO_CHECK(check_outputs(arguments.files, known.paths, known.options.tool.has_value()));
   return known;
 }
 

@@ -41,8 +41,7 @@ struct CheckedOrder : MakeOrder {
   std::optional<StoredProject> project;
   ReliefOptions options;
 
-  // Returns the paths of all files that the order reads. No output may overwrite them.
-  std::vector<std::string> paths() const;
+  std::vector<std::string> paths;  // of all files that the order reads; no output may overwrite them
 };
 
 // Reads the project if the input is a project, and parses the options. Errors: those of find_project() and

@@ -62,11 +62,22 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
 }  // namespace
 
 OptionValues with_given(OptionValues own, const OptionValues& given) {
-  // Several options set the height; their names begin with "height". If `given` has one of them, those of the
-  // project are removed.
-  const auto is_height = [](const auto& value) { return value.first.starts_with("height"); };
-  if (given.contains("alpha")) own.erase("method");  // alpha implies the paper's method
-  if (given.contains("alpha") || std::ranges::any_of(given, is_height)) std::erase_if(own, is_height);
+  const auto has = [&](std::string_view name) { return given.contains(name); };
+  const auto drop = [&](std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+      if (const auto found = own.find(name); found != own.end()) own.erase(found);
+  };
+  // Each of these sets the height alone. The ground belongs to mm-per-value.
+  const bool has_scale = has("mm-per-value");
+  if (has("height") || has("height-of-diagonal") || has("alpha") || has_scale)
+    drop({"height", "height-of-diagonal", "alpha", "mm-per-value"});
+  if (!own.contains("mm-per-value") && !has_scale) drop({"ground"});
+  if (has("alpha") || has_scale) drop({"method"});  // alpha implies the method paper, mm-per-value linear
+  if (has("method") && given.at("method") != OptionValue("paper")) drop({"alpha"});
+  if (has("method") && given.at("method") != OptionValue("linear")) drop({"mm-per-value", "ground"});
+  // A diameter implies the outline circle, which has no width and height of its own.
+  if (has("diameter") || (has("plate") && own.contains("diameter"))) drop({"outline"});
+  if (has("plate") || has("diameter")) drop({"plate", "diameter"});
   for (const auto& [name, value] : given) own.insert_or_assign(name, value);
   return own;
 }

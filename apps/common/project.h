@@ -38,8 +38,9 @@ struct Project {
 // kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options `own` of a project, overridden by the options `given` by the user. If `given` has alpha, the
-// height and the method of the project are dropped.
+// Returns the options `own` of a project, overridden by the options `given` by the user. Of options that exclude each
+// other, such as height and alpha, or plate and diameter, the project's are dropped if `given` has one of them, and so
+// are the method and the outline that go with them.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
 // Returns an object with the value of each option that has a given value or a default.

@@ -1,5 +1,6 @@
 #include "common/project_file.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/archive.h"
@@ -68,6 +69,18 @@ Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string
       RELIEVO_TRY(file.ornaments[entry], archive.content(entry));
     }
   return file;
+}
+
+Result<ProjectListing> list_project(std::span<const std::byte> bytes, std::string_view name) {
+  const std::string_view text = text_in(bytes);
+  if (!text.starts_with("PK")) return ProjectListing{std::string(text)};
+  RELIEVO_TRY(const Archive archive, Archive::open(bytes, name));
+  RELIEVO_TRY(const std::vector<std::byte> json, archive.content(project_name));
+  const std::vector<std::string> names = archive.names();
+  const auto has = [&](const char* folder) {
+    return std::ranges::any_of(names, [&](const std::string& entry) { return entry.starts_with(folder); });
+  };
+  return ProjectListing{std::string(text_in(json)), has(scan_folder), has(base_folder)};
 }
 
 Result<std::vector<std::byte>> pack_project(const ProjectFile& file) {

@@ -31,6 +31,15 @@ struct ProjectFile {
 // that has no project or is larger than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
+// The JSON text of a project file, and which files it contains.
+struct ProjectListing {
+  std::string text;  // see read_project()
+  bool has_scan = false, has_base_image = false;
+};
+
+// Does the same as unpack_project(), but unpacks the text alone.
+Result<ProjectListing> list_project(std::span<const std::byte> bytes, std::string_view name);
+
 // Returns the bytes of a compressed project file that contains the files of `file`. Errors: kind output if there
 // is not enough memory.
 Result<std::vector<std::byte>> pack_project(const ProjectFile& file);

@@ -55,10 +55,17 @@ async function parse(args) {
   return { inputs, values };
 }
 
+// Returns whether the text has lengths that --units applies to. The option mm-per-value has its unit in its name.
+function isOfUnits(option, text) {
+  if (option.unit === "TOOL") return !/^v:[^:]*$/.test(text); // such a tool has an angle alone
+  return ["MM", "WxH", "X,Y"].includes(option.unit) && option.name !== "mm-per-value";
+}
+
 // Returns the value of an option. A length without a unit is in the unit of --units, as in the native program.
 function optionValue(option, text, units) {
+  if (units === "in" && isOfUnits(option, text) && /[\d.]\s*$/.test(text)) return `${text}in`;
   const isNumber = text.trim() !== "" && Number.isFinite(Number(text));
-  if (option.unit === "MM") return isNumber && units === "in" ? `${text}in` : isNumber ? Number(text) : text;
+  if (option.unit === "MM") return isNumber ? Number(text) : text;
   const isOfNumbers = "min" in option || "max" in option || typeof option.default === "number";
   if (!isOfNumbers) return text;
   if (!isNumber) misuse(`--${option.name}: expected a number, found '${text}'`);

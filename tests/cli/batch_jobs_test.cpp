@@ -12,6 +12,7 @@ namespace relievo {
 namespace {
 
 using namespace test;
+using namespace app;
 using namespace app::batch;
 using Cells = std::vector<std::string>;
 
@@ -108,14 +109,38 @@ TEST_F(BatchJobs, NameWhatIsWrongInATable) {
   EXPECT_TRUE(error_of("file\n").contains("expected scans, found none"));
 }
 
-TEST_F(BatchJobs, ReadTheFilesThatScenesAndProjectsName) {
+// The preview of a-heights.ply has the name that the height map of a.ply would have.
+TEST_F(BatchJobs, HaveOutputsOfDifferentNames) {
+  fs::remove(folder_ / "torus.ply");
+  for (const char* name : {"a.ply", "a-heights.ply", "contact-sheet.ply"}) write_all(folder_ / name, "");
+  const Catalogue catalogue{folder_.string(), "", (folder_ / "out").string(), {}, {"-heights.png", ".png"}};
+  const auto jobs = list_jobs(catalogue, {});
+  ASSERT_TRUE(jobs) << jobs.error().message();
+  std::vector<std::string> names;
+  for (const Job& job : *jobs) names.push_back(job.name);
+  EXPECT_EQ(names, (Cells{"a-heights", "a-2", "scan-contact-sheet"}));
+}
+
+TEST_F(BatchJobs, AreNamedInUtf8) {
+  write_all(folder_ / "caf\xe9.ply", "");
+  const auto jobs = list("");
+  ASSERT_FALSE(jobs);
+  EXPECT_TRUE(jobs.error().message().contains("expected names and options in UTF-8"))
+      << jobs.error().message();
+  expect_refusal("batch . -o out --list", "expected names and options in UTF-8");
+  EXPECT_TRUE(list_jobs({folder_.string(), "t*", (folder_ / "out").string(), {}}, {}));
+}
+
+TEST_F(BatchJobs, ReadTheFilesThatScenesProjectsAndOptionsName) {
   write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}]})");
   write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "s.json"}, "options": {}})");
-  write_all(folder_ / "m.gltf", R"({"buffers": [{"uri": "m.bin"}, {"uri": "data:,x"}]})");
+  write_all(folder_ / "l.json", R"([{"kind": "drawing", "file": "d.svg"}])");
   const auto path = [&](const char* name) { return (folder_ / name).string(); };
-  EXPECT_EQ(files_of({"p", path("p.relievo"), {}}),
-            (Cells{path("p.relievo"), path("s.json"), path("torus.ply")}));
-  EXPECT_EQ(files_of({"m", path("m.gltf"), {}}), (Cells{path("m.gltf"), path("m.bin")}));
+  Cells files;
+  for (const InputFile& file : files_of({"p", path("p.relievo"), {{"ornaments", path("l.json")}}}))
+    files.push_back(file.path);
+  EXPECT_EQ(files,
+            (Cells{path("p.relievo"), path("s.json"), path("torus.ply"), path("l.json"), path("d.svg")}));
 }
 
 // More points need more memory, and each model of a scene adds its own.

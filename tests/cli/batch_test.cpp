@@ -261,5 +261,20 @@ TEST_F(BatchProgram, TakesOptionsOfEachRow) {
   EXPECT_TRUE(read_all(folder_ / "out/scans.jsonl").contains("no number"));
 }
 
+// The lengths of all scans are in the unit of the flag, also where a row of the table has another unit.
+TEST_F(BatchProgram, AppliesTheUnitOnceAndToItsOwnLengths) {
+  write_all(folder_ / "t.csv",
+            "file,name,units,height\nscans/1.ply,a,,\nscans/1.ply,b,mm,\nscans/1.ply,c,in,1/4\n");
+  must_run(
+      "batch t.csv -o out --files heightmap,report --quiet --units in --width 1 --height 1/8in --margin 1/4 "
+      "--plate 2x2 --tool ball:1/8 --pixel 1/10 --method linear --resolution 1.5mm --denoise 0");
+  for (const auto& [name, height_mm] : {std::pair("a", 3.175), {"b", 3.175}, {"c", 6.35}}) {
+    const auto report = nlohmann::json::parse(read_all(folder_ / cat("out/", name, ".json")));
+    EXPECT_NEAR(report["height_mm"].get<double>(), height_mm, .05) << name;
+    EXPECT_NEAR(report["size_mm"][0].get<double>(), 50.8, 1e-3) << name;
+    EXPECT_NEAR(report["height_map"]["mm_per_pixel"].get<double>(), 2.54, 1e-9) << name;
+  }
+}
+
 }  // namespace
 }  // namespace relievo

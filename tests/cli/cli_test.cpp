@@ -263,6 +263,20 @@ TEST_F(Cli, LengthsCarryAUnitOrAreInThatOfAll) {
   expect_refusal("make torus.ply -o c.stl --units ft", "--units: expected mm or in");
 }
 
+// A shift is two lengths. The option mm-per-value says millimetres in its name, so the unit does not apply to it.
+TEST_F(Cli, AppliesTheUnitToAShiftAndNotToAScale) {
+  const auto made = [&](const std::string& lengths) {
+    must_run(
+        "make torus.ply -o s.stl --quiet --method linear --mm-per-value 4 --width 50mm --report r.json " +
+        lengths);
+    return nlohmann::json::parse(read_all(folder_ / "r.json"));
+  };
+  const auto mm = made("--plate 127x101.6 --shift 12.7,-2.54"),
+             inches = made("--plate 5x4 --shift 0.5,-0.1 --units in");
+  EXPECT_EQ(inches["model_to_mm"], mm["model_to_mm"]);
+  EXPECT_EQ(inches["height_mm"], mm["height_mm"]);
+}
+
 TEST_F(Cli, TellsWhatAToolReaches) {
   const Outcome made = must_run(
       "make torus.ply -o t.stl --height 4 --tool ball:1/8in --tool-picture t.png --report r.json --width 60");

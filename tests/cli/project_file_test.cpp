@@ -21,5 +21,33 @@ TEST_F(PackOrnaments, TakesAListAloneAndInAnObject) {
   }
 }
 
+OptionValues values(std::initializer_list<std::pair<const std::string, OptionValue>> all) {
+  return {all.begin(), all.end()};
+}
+
+// What the user gives replaces what the project has, also where two options exclude each other.
+TEST(ProjectOptions, GiveWayToTheirAlternatives) {
+  const OptionValues paper = values({{"alpha", 10.}, {"method", "paper"}, {"width", 50.}}),
+                     scale = values({{"mm-per-value", 5.}, {"ground", 2.}, {"method", "linear"}}),
+                     high = values({{"height", 3.}, {"method", "layered"}}),
+                     plate = values({{"plate", "80x60"}, {"outline", "rectangle"}}),
+                     coin = values({{"diameter", 60.}, {"outline", "circle"}});
+  for (const auto& given :
+       {values({{"height", 4.}}), values({{"height-of-diagonal", .1}}), values({{"alpha", 5.}}),
+        values({{"mm-per-value", 2.}}), values({{"mm-per-value", 2.}, {"ground", 1.}, {"method", "linear"}}),
+        values({{"method", "layered"}}), values({{"diameter", 70.}}), values({{"plate", "90x70"}}),
+        values({{"diameter", 70.}, {"outline", "circle"}}),
+        values({{"plate", "90x70"}, {"outline", "round"}})})
+    for (const OptionValues& own : {paper, scale, high, plate, coin}) {
+      const OptionValues all = app::with_given(own, given);
+      const auto options = parse_options(all);
+      EXPECT_TRUE(options) << options.error().message() << " with " << given.begin()->first << " on "
+                           << own.begin()->first;
+      for (const auto& [name, value] : given) EXPECT_EQ(all.at(name), value);
+    }
+  EXPECT_EQ(app::with_given(paper, values({{"height", 4.}})).at("width"), OptionValue(50.));
+  EXPECT_EQ(app::with_given(scale, values({{"ground", 3.}})).at("mm-per-value"), OptionValue(5.));
+}
+
 }  // namespace
 }  // namespace relievo
