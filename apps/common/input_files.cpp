@@ -42,7 +42,8 @@ std::string gltf_text(const std::string& path) {
   file.read(reinterpret_cast<char*>(head.data()), head.size());
   if (!file || std::string_view(reinterpret_cast<const char*>(head.data()), 4) != "glTF")
     return text_of_file(path);
-  const std::size_t stated = head[12] | head[13] << 8 | head[14] << 16 | std::size_t{head[15]} << 24;
+  const auto byte = [&](std::size_t i) { return std::size_t{head[i]}; };
+  const std::size_t stated = byte(12) | byte(13) << 8 | byte(14) << 16 | byte(15) << 24;
   std::string text(std::min<std::size_t>(stated, file_size(path).value_or(0)), ' ');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   return text;
