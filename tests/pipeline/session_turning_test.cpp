@@ -49,14 +49,19 @@ std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& vi
   return value_of(session.turn(view)).model;
 }
 
-// Calls turn() twice before the first model is ready. Returns whether both calls returned the same relief.
-bool turns_once(bool makes_first_relief) {
-  Session session;
-  HeldAtPoints held{session};
+// Opens a scan, and waits until its points are measured.
+void open_until_measured(Session& session, HeldAtPoints& held, bool makes_first_relief = true) {
   Preparation preparation = held.preparation(20'000);
   preparation.makes_first_relief = makes_first_relief;
   session.open(preparation);
   held.has_measured.acquire();
+}
+
+// Calls turn() twice before the first model is ready. Returns whether both calls returned the same relief.
+bool turns_once(bool makes_first_relief) {
+  Session session;
+  HeldAtPoints held{session};
+  open_until_measured(session, held, makes_first_relief);
   const auto first = turned_model(session), second = turned_model(session);
   EXPECT_NE(turned_model(session, view_to("1,0,1")), first);
   held.may_go_on.release();
@@ -72,10 +77,7 @@ TEST(Session, HasTheFirstReliefBeforeItIsAskedFor) {
 TEST(Session, ForgetsTheFirstReliefOfOtherPoints) {
   Session session;
   HeldAtPoints old{session}, held{session};
-  Preparation with_first = old.preparation(20'000);
-  with_first.makes_first_relief = true;
-  session.open(with_first);
-  old.has_measured.acquire();
+  open_until_measured(session, old);
   const auto first = turned_model(session);
   session.open(held.preparation(10'000));
   old.may_go_on.release();
@@ -89,10 +91,7 @@ TEST(Session, ForgetsTheFirstReliefOfOtherPoints) {
 bool turns_while_reading(bool is_of_other_scan) {
   Session session;
   HeldAtPoints held{session};
-  Preparation first = held.preparation(20'000);
-  first.makes_first_relief = true;
-  session.open(first);
-  held.has_measured.acquire();
+  open_until_measured(session, held);
   EXPECT_TRUE(session.status().can_turn);
   Stuck stuck;
   Preparation next = stuck.preparation();
