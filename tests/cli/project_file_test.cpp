@@ -25,7 +25,7 @@ OptionValues values(std::initializer_list<std::pair<const std::string, OptionVal
   return {all.begin(), all.end()};
 }
 
-// What the user gives replaces what the project has, also where two options exclude each other.
+// Given options replace those of the project, also options that they exclude.
 TEST(ProjectOptions, GiveWayToTheirAlternatives) {
   const OptionValues paper = values({{"alpha", 10.}, {"method", "paper"}, {"width", 50.}}),
                      scale = values({{"mm-per-value", 5.}, {"ground", 2.}, {"method", "linear"}}),

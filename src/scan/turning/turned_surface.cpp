@@ -160,7 +160,7 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   return k;
 }
 
-// Finds the points of a scan that are visible in cells. Scans without colours and own heights do without.
+// Finds the points of a scan that are visible in cells. Only scans with colours or own heights need it.
 class PointsInFront {
  public:
   PointsInFront(const TurningScan& scan, const View& view, const FrontCells& front, int step)
@@ -185,7 +185,7 @@ class PointsInFront {
   }
 
  private:
-  // Of the points in a cell, keeps the one that is nearest to the depth at which the cell is drawn.
+  // Notes the point for its cell if no other point is nearer to the depth at which the cell is drawn.
   void add(Index point, const Vec3f& place) {
     const Vec2f at = (place.head<2>() - front_.corner) / front_.cell;
     const Vec2f size(static_cast<float>(nearest_.width), static_cast<float>(nearest_.height));
