@@ -54,9 +54,9 @@ struct Catalogue {
 // has a column `file`, with paths relative to the table. It may have a column `name` for Job::name, and a
 // column for each option for which is_option() returns true. For an empty cell, the option's value in
 // Catalogue::common applies. A job without a name is named after its file; -2 is appended if another job has
-// that name or an output that this job would have. Errors: kind input if the path cannot be read, if there are no scans, if a row has no file, if a
-// name in the table is not unique, if a name leads out of the folder, or if a text is not UTF-8; kind option if the table has any
-// other column.
+// that name or an output that this job would have. Errors: kind input if the path cannot be read, if there
+// are no scans, if a row has no file, if a name in the table is not unique, if a name leads out of the
+// folder, or if a text is not UTF-8; kind option if the table has any other column.
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
