@@ -228,7 +228,7 @@ export function shownOptions(step) {
 export function projectOf(step) {
   const {input, isHeightLocked, u, isDieOfPiece, material, light, snapshots} = step, options = engineOptions(step);
   const kept = Object.fromEntries(Object.entries(step.options).filter(([name, value]) => !(name in options) &&
-    name !== "height-of-diagonal" && (value ?? "") !== "" && value !== FIRST.options[name]));
+    (value ?? "") !== "" && value !== FIRST.options[name]));
   const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece}),
     ...(Object.keys(kept).length > 0 && {kept}), ...(snapshots.length > 0 && {snapshots})};
   return {relievo: 1, input, options, studio};
