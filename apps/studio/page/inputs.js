@@ -41,6 +41,16 @@ export function takeDrops(veil, open) {
 let unfinished = null;
 export const isUnfinished = (field) => field === unfinished;
 
+// Shows a text in a field, unless the user is typing there. If all text of a focused field was selected, then all of the
+// new text is, so that typing replaces it.
+export function showText(field, text) {
+  if (isUnfinished(field) && !field.disabled) return;
+  const isFocused = field === document.activeElement;
+  const isSelected = isFocused && field.selectionEnd - field.selectionStart === field.value.length;
+  field.value = text;
+  if (isSelected) field.select();
+}
+
 export function finish() {
   unfinished = null;
   if (postponed) setTimeout(doPostponed); // runs after the field's own handlers

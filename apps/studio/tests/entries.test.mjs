@@ -124,6 +124,23 @@ test("takes sizes in the order in which they were typed, each as one step", asyn
   await free();
 });
 
+for (const name of ["thickness", "height"])
+  test(`what was selected in the ${name} stays selected when a waiting kind is taken`, async () => {
+    const before = await value(name);
+    await hold();
+    await enter(option("rim"), "2");
+    await kind("Lithophane").click();
+    await waits("Trying Rim width, Lithophane …");
+    await option(name).focus();
+    await page.keyboard.press("Control+a");
+    await release();
+    await soon.ok(async () => (await value(name)) !== before, "the value of a lithophane");
+    await page.keyboard.type("2.98");
+    await page.keyboard.press("Enter");
+    await soon.equal(() => value(name), "2.98");
+    await free();
+  });
+
 test("takes a kind, and what is typed for it, after the entries before", async () => {
   await hold();
   await enter(option("plate"), "140x110");

@@ -4,7 +4,7 @@
 import {optionOf} from "../about.js";
 import {$, pair, sentence, textField} from "../controls.js";
 import {uOfAlpha} from "../document.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 import {typedNumber} from "../lengths.js";
 
 export class AlphaRow {
@@ -30,7 +30,6 @@ export class AlphaRow {
     this.facts = facts;
     this.input.disabled = facts.alpha === null;
     this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Edge emphasis 0" : this.help;
-    if (!isUnfinished(this.input) || this.input.disabled)
-      this.input.value = facts.alpha === null ? "" : Number(facts.alpha.toPrecision(4));
+    showText(this.input, facts.alpha === null ? "" : Number(facts.alpha.toPrecision(4)));
   }
 }

@@ -5,7 +5,7 @@ import {about} from "../about.js";
 import {$, make, oneAtATime, pair, textField} from "../controls.js";
 import {hasGround, shownOptions} from "../document.js";
 import {FileField, fileInput, fileNameOf, takeDropsOn} from "../file_field.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 import {LetterMarks, rounded} from "../stage/letter_marks.js";
 import {shortLength, shown, typedNumber} from "../lengths.js";
 import {fileOf, listOf, withoutEmpty} from "../ornament_list.js";
@@ -181,7 +181,7 @@ export class LettersPanel {
 
   // Returns the row with the text field. The document changes with each typed letter; all letters form one undo step.
   textRow(at) {
-    const show = ({text}) => isUnfinished(input) || (input.value = text);
+    const show = ({text}) => showText(input, text);
     const input = textField({"aria-label": "Text", maxlength: 500}, {
       take: (text) => (text ? this.set(at, {text}, "letters") : 0, this.doc.endGesture("letters"), this.show()),
       show: () => (this.doc.cancelGesture(), show(this.list[at]))});
@@ -210,7 +210,7 @@ export class LettersPanel {
     const number = NUMBERS[name], {label, unit} = number, isLength = unit === "mm";
     const show = (ornament) => {
       const value = ornament[name] ?? "";
-      if (!isUnfinished(input)) input.value = isLength && value !== "" ? shortLength(value) : value;
+      showText(input, isLength && value !== "" ? shortLength(value) : value);
     };
     const input = textField({inputmode: "decimal", "aria-label": label, placeholder: "automatic"}, {
       take: (text) => {

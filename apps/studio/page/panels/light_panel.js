@@ -2,7 +2,7 @@
 
 import {$, ARROWS, Pause, clamp, make, pair, textField} from "../controls.js";
 import {hasScale} from "../document.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 import {typedNumber} from "../lengths.js";
 import {angles, degrees, direction, whole} from "../lights.js";
 import {GESTURE_END_MS} from "./slider.js";
@@ -120,7 +120,6 @@ export class LightPanel {
       names.forEach((name, i) => part.setAttribute(name, [x, y][i]));
     this.knob.setAttribute("aria-valuenow", whole(azimuth));
     this.knob.setAttribute("aria-valuetext", `from ${whole(azimuth)} degrees, ${elevation} degrees high`);
-    for (const {name, input} of this.fields)
-      if (!isUnfinished(input)) input.value = {azimuth: whole(azimuth), elevation}[name];
+    for (const {name, input} of this.fields) showText(input, {azimuth: whole(azimuth), elevation}[name]);
   }
 }

@@ -5,7 +5,7 @@ import {BaseImage, withoutImage} from "./base_image.js";
 import {$, Pause, clamp, make, pair, sentence} from "../controls.js";
 import {FIRST, NOT_PRINTED} from "../document.js";
 import {FIELDS} from "./fields.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 import {FREE_OUTLINES, KINDS} from "./kinds.js";
 import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "../lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
@@ -197,7 +197,7 @@ export class PieceRows {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
-      if (!isUnfinished(input) && !tried.has(name)) input.value = shown;
+      if (!tried.has(name)) showText(input, shown);
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
     }

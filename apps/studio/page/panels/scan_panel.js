@@ -3,7 +3,7 @@
 
 import {$, make, pair} from "../controls.js";
 import {noteOn} from "./depth_panel.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
 // The sides that the user can cut away, each with its index in the crop X0,Y0,X1,Y1,NEAR,FAR. The numbers of a crop are
@@ -124,7 +124,7 @@ export class ScanPanel {
     if (key === this.shown) return; // nothing has changed; this method runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
-    if (!isUnfinished($("#crop"))) $("#crop").value = crop;
+    showText($("#crop"), crop);
     for (const [name] of PARTS) $(`#${name}`).checked = options[name] === "keep";
     $("#denoise-auto").checked = denoise === "auto";
     this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));

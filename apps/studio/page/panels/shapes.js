@@ -2,7 +2,7 @@
 // tool "v:60:0.5": a menu of the shapes, and a field for each parameter of the chosen shape.
 
 import {make, pair, textField} from "../controls.js";
-import {isUnfinished} from "../inputs.js";
+import {showText} from "../inputs.js";
 import {parseLength, shortLength, shown, shownUnit, typedNumber} from "../lengths.js";
 
 const mm = {unit: "mm", min: 0, max: 1e6}, degrees = {unit: "°", min: -360, max: 360}, word = {isWord: true};
@@ -114,7 +114,7 @@ function withParameter(option, text, parameter, value) {
 
 function showValue({parameter, input}, text) {
   if (parameter.isWord) input.checked = text !== undefined;
-  else if (!isUnfinished(input)) input.value = text === undefined ? "" : valueText(parameter, text);
+  else showText(input, text === undefined ? "" : valueText(parameter, text));
 }
 
 // Returns the text that a parameter's field shows for its value. Lengths are converted to the page's unit.

@@ -1,7 +1,7 @@
 // Makes sliders that have a number field beside them.
 
 import {Pause, clamp, make} from "../controls.js";
-import {finish, isUnfinished} from "../inputs.js";
+import {finish, isUnfinished, showText} from "../inputs.js";
 import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "../lengths.js";
 
 // Mappings from values to positions on a slider, and back.
@@ -151,7 +151,7 @@ export class Slider {
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
     this.range.setAttribute("aria-valuetext", `${text} ${shownUnit(this.unitName ?? this.unit) ?? ""}`.trim());
     this.number.setAttribute("aria-valuenow", text);
-    if (!isUnfinished(this.number)) this.number.value = text;
+    showText(this.number, text);
   }
 
   // Marks a value on the slider, such as the largest reachable one, with a tip. Removes the mark if the value is null.
