@@ -47,19 +47,18 @@ class ToolHeights {
 
   // Returns the height that the tool leaves at a point, interpolated between samples. Outside all samples,
   // returns the height of the point itself.
-  double at(const Vec3& point) const {
-    const Vec2 place = to_samples(point) - Vec2(.5, .5);
-    const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
-    const double right = place.x() - x, down = place.y() - y;
-    double sum = 0, weights = 0;
-    for (const auto& [dx, dy, weight] :
-         {Corner{0, 0, (1 - right) * (1 - down)}, Corner{1, 0, right * (1 - down)},
-          Corner{0, 1, (1 - right) * down}, Corner{1, 1, right * down}}) {
-      if (!is_front(x + dx, y + dy)) continue;
-      sum += weight * static_cast<double>(closed_.at(x + dx, y + dy));
-      weights += weight;
-    }
-    return weights > 0 ? field_.box.min.z() + sum / weights : point.z();
+  double height_at(const Vec3& point) const {
+    const double z = interpolated(
+        point, [&](int x, int y) { return field_.box.min.z() + static_cast<double>(closed_.at(x, y)); });
+    return std::isnan(z) ? point.z() : z;
+  }
+
+  // Returns how much material the tool leaves above a point. At the foot of a wall, interpolated heights lie above
+  // the surface even if the tool leaves nothing there; at its upper edge, the interpolated difference between the
+  // heights is too large. So the smaller of both counts.
+  double left_at(const Vec3& point) const {
+    return std::min(height_at(point) - point.z(),
+                    interpolated(point, [&](int x, int y) { return static_cast<double>(left(x, y)); }));
   }
 
   // Returns the steepest slope from a sample to a neighbouring sample.
@@ -84,6 +83,23 @@ class ToolHeights {
     int dx, dy;
     double weight;
   };
+
+  // Returns the bilinear interpolation of value(x, y) between samples; NaN outside all samples.
+  template <typename Value>
+  double interpolated(const Vec3& point, const Value& value) const {
+    const Vec2 place = to_samples(point) - Vec2(.5, .5);
+    const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
+    const double right = place.x() - x, down = place.y() - y;
+    double sum = 0, weights = 0;
+    for (const auto& [dx, dy, weight] :
+         {Corner{0, 0, (1 - right) * (1 - down)}, Corner{1, 0, right * (1 - down)},
+          Corner{0, 1, (1 - right) * down}, Corner{1, 1, right * down}}) {
+      if (!is_front(x + dx, y + dy)) continue;
+      sum += weight * value(x + dx, y + dy);
+      weights += weight;
+    }
+    return sum / weights;
+  }
 
   HeightField field_;
   Image<float> closed_;
@@ -112,7 +128,7 @@ class PointSet {
 
   // Adds the point if the tool reaches it. If the tool misses the point by little, the point is lifted and added.
   void add_if_reached(const Vec3& point, const Colour& colour) {
-    const double left = heights_.at(point) - point.z();
+    const double left = heights_.left_at(point);
     if (left <= least_left_mm)
       add(point, colour);
     else if (left <= most_lift_mm)
@@ -188,7 +204,7 @@ void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const Rim
     const ToolHeights heights(surface.solid, tool);
     parallel_for(surface.solid.points.size(), [&](std::size_t i) {
       Vec3& p = surface.solid.points[i];
-      p.z() = std::max(p.z(), heights.at(p));
+      p.z() = std::max(p.z(), heights.height_at(p));
     });
     return;
   }

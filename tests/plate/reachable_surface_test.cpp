@@ -69,6 +69,16 @@ TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {
   EXPECT_NEAR(volume_mm3(solid), volume_mm3(test::plate_of(front, {})), 1e-9);
 }
 
+// A flat end mill reaches all of a cone and of the ground around it, since it touches both from outside.
+TEST(ReachableSurface, KeepsTheFootOfAConeThatAFlatToolReaches) {
+  const HeightFieldMesh cone = test::pyramid_front(test::ellipse(90, 2, 2), 6);
+  PlateOptions options;
+  options.tool = Tool{Tool::Kind::flat, 2};
+  const Solid before = test::plate_of(cone, {}), after = test::plate_of(cone, options);
+  EXPECT_NEAR(volume_mm3(after), volume_mm3(before), 1e-4 * volume_mm3(before));
+  for (const Vec3& p : cone.points) EXPECT_TRUE(test::has_corner_at(after, p.head<2>() + Vec2(7, 7), .01));
+}
+
 TEST(ReachableSurface, WithoutGroundIsLifted) {
   HeightFieldMesh front = block();
   front.is_relief.assign(front.triangles.size(), 1);
