@@ -9,6 +9,7 @@
 #include "cli/terminal.h"
 #include "common/export_file.h"
 #include "common/files.h"
+#include "common/input_files.h"
 #include "common/make_order.h"
 #include "common/relief_files.h"
 #include "relievo/core/parallel.h"
@@ -51,9 +52,10 @@ Result<CheckedOrder> order_of(MakeArguments& arguments) {
   RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
   RELIEVO_TRY(order.input_arguments, parse_input_texts(arguments.in));
   order.values.insert(arguments.in.depth.begin(), arguments.in.depth.end());
+  order.paths_read = paths_read_by(order);
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
   RELIEVO_CHECK(take_output(arguments));
-  RELIEVO_CHECK(check_outputs(arguments.files, known.paths, known.options.tool.has_value()));
+  RELIEVO_CHECK(check_outputs(arguments.files, known.paths_read, known.options.tool.has_value()));
   return known;
 }
 

@@ -12,6 +12,7 @@
 #include "common/project_file.h"
 #include "common/read_inputs.h"
 #include "common/scene_file.h"
+#include "relievo/option_table.h"
 
 namespace relievo::app {
 namespace {
@@ -171,6 +172,20 @@ std::vector<std::string> files_in_option(const std::string& option, const std::s
     return name;
   });
   return files;
+}
+
+std::vector<std::string> paths_read_by(const MakeOrder& order) {
+  std::vector<std::string> paths{order.base_image_path};
+  const auto add = [&](const std::string& input) {
+    for (InputFile& file : files_read_with(input)) paths.push_back(std::move(file.path));
+  };
+  for (const std::string& input : order.inputs) add(input);
+  if (!order.scan_path.empty()) add(order.scan_path);
+  for (const auto& [option, value] : order.values)
+    if (const auto* const text = std::get_if<std::string>(&value); text && !text->empty())
+      for (std::string& file : files_in_option(option, *text)) paths.push_back(std::move(file));
+  std::erase_if(paths, [](const std::string& path) { return !is_there(path); });
+  return paths;
 }
 
 bool is_path(const std::string& option, const std::string& value) {

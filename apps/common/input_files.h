@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "relievo/option_table.h"
+#include "common/make_order.h"
 
 namespace relievo::app {
 
@@ -25,6 +25,9 @@ std::vector<InputFile> files_read_with(const std::string& path);
 // start at `folder`. Returns nothing if the value is not the path of a file.
 std::vector<std::string> files_in_option(const std::string& option, const std::string& value,
                                          const std::string& folder = {});
+
+// Returns the paths of the existing files that the order reads. A missing file cannot be overwritten.
+std::vector<std::string> paths_read_by(const MakeOrder& order);
 
 // Returns whether the option accepts the path of a file and `value` is the path of an existing file.
 bool is_path(const std::string& option, const std::string& value);

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "common/files.h"
-#include "common/input_files.h"
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
@@ -17,21 +16,6 @@ namespace {
 // Returns the option values of an order, completed by those of its project.
 OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   return stored ? with_given(stored->project.options, order.values) : order.values;
-}
-
-// Returns the paths of the existing files that the order reads. A missing file cannot be overwritten.
-std::vector<std::string> paths_of(const MakeOrder& order) {
-  std::vector<std::string> paths{order.base_image_path};
-  const auto add = [&](const std::string& input) {
-    for (InputFile& file : files_read_with(input)) paths.push_back(std::move(file.path));
-  };
-  for (const std::string& input : order.inputs) add(input);
-  if (!order.scan_path.empty()) add(order.scan_path);
-  for (const auto& [option, value] : order.values)
-    if (const auto* const text = std::get_if<std::string>(&value); text && !text->empty())
-      for (std::string& file : files_in_option(option, *text)) paths.push_back(std::move(file));
-  std::erase_if(paths, [](const std::string& path) { return !is_there(path); });
-  return paths;
 }
 
 }  // namespace
@@ -59,7 +43,6 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
 
 Result<CheckedOrder> check_order(MakeOrder order) {
   const bool are_files = !order.read;
-  std::vector<std::string> paths = paths_of(order);
   RELIEVO_CHECK(take_text_of_file("camera", {}, order.values));
   RELIEVO_TRY(auto project,
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
@@ -69,7 +52,7 @@ Result<CheckedOrder> check_order(MakeOrder order) {
   RELIEVO_TRY(order.input_arguments.keeps_doubtful, parse_doubtful(values));
   order.input_arguments.is_lithophane = options.form == Form::lithophane;
   if (are_files) order.name = joined(order.inputs);
-  return CheckedOrder{std::move(order), std::move(project), std::move(options), std::move(paths)};
+  return CheckedOrder{std::move(order), std::move(project), std::move(options)};
 }
 
 Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
@@ -97,7 +80,7 @@ InputFacts facts_of(const LoadedOrder& loaded) {
   std::vector<std::string> left_out;
   for (const SceneModel& model : loaded.scene.models)
     for (const std::string& line : remarks_on(*model.file)) left_out.push_back(cat(model.name, ": ", line));
-  return {loaded.name, loaded.paths, remarks_of(loaded.scene),
+  return {loaded.name, loaded.paths_read, remarks_of(loaded.scene),
           models_report(loaded.scene, loaded.options.view), std::move(left_out)};
 }
 

@@ -30,6 +30,7 @@ struct MakeOrder {
   // name of all inputs together.
   std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
+  std::vector<std::string> paths_read = {};  // no output may overwrite these files; see paths_read_by()
 };
 
 // Parses the options of an order and those of its project, if it has one. Errors: those of parse_options()
@@ -40,8 +41,6 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
 struct CheckedOrder : MakeOrder {
   std::optional<StoredProject> project;
   ReliefOptions options;
-
-  std::vector<std::string> paths;  // of all files that the order reads; no output may overwrite them
 };
 
 // Reads the project if the input is a project, and parses the options. Errors: those of find_project() and
@@ -61,7 +60,7 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 // The facts about a relief's inputs that its report states. They are copies, so the scans can be freed.
 struct InputFacts {
   std::string name;
-  std::vector<std::string> paths, remarks;  // paths: files that must not be overwritten
+  std::vector<std::string> paths_read, remarks;  // paths_read: files that must not be overwritten
   nlohmann::json models;
   std::vector<std::string> left_out =
       {};  // the remarks on parts of a cloud or mesh that were left out; also in `remarks`

@@ -10,6 +10,7 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
+#include "common/input_files.h"
 #include "common/relief_files.h"
 #include "native/arrays.h"
 #include "native/call.h"
@@ -33,7 +34,8 @@ py::bytes bytes_of(std::string_view text) {
 }
 
 SharedRelief make(const py::list& sources, const py::dict& keywords, const py::object& callback) {
-  const app::MakeOrder order = order_of(sources, keywords);
+  app::MakeOrder order = order_of(sources, keywords);
+  order.paths_read = app::paths_read_by(order);
   return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
 }
 
@@ -67,7 +69,7 @@ app::ReliefFiles files_of(const py::dict& paths, const std::string& units, Pictu
 
 void save(const SharedRelief& relief, const app::ReliefFiles& files) {
   value_or_raise(unlocked([&]() -> Result<void> {
-    RELIEVO_CHECK(app::check_outputs(files, relief->inputs.paths, relief->made.report.reach.has_value()));
+    RELIEVO_CHECK(app::check_outputs(files, relief->inputs.paths_read, relief->made.report.reach.has_value()));
     RELIEVO_TRY(app::MadeFiles made, app::relief_files(files, relief->made, relief->draft_deg));
     if (!files.report.empty()) made.files.push_back(app::report_file(files, *relief, made.height_map));
     return app::write_files(made.files);
@@ -256,7 +258,7 @@ py::tuple state_of(const app::FinishedRelief& relief) {
   return py::make_tuple(state_of(relief.made.solid), state_of(relief.made.flat), value_bytes(report.form),
                         report.wrap ? py::object(value_bytes(*report.wrap)) : py::none(),
                         state_of(report.reach), relief.draft_deg, py::bytes(json), relief.remarks(),
-                        relief.inputs.paths, relief.inputs.name);
+                        relief.inputs.paths_read, relief.inputs.name);
 }
 
 std::shared_ptr<app::FinishedRelief> relief_in(const py::tuple& state) {
@@ -271,7 +273,7 @@ std::shared_ptr<app::FinishedRelief> relief_in(const py::tuple& state) {
   relief->kept_report = nlohmann::json::parse(state[6].cast<std::string_view>(), nullptr, false);
   check(relief->kept_report.is_object());
   relief->inputs.remarks = state[7].cast<std::vector<std::string>>();
-  relief->inputs.paths = state[8].cast<std::vector<std::string>>();
+  relief->inputs.paths_read = state[8].cast<std::vector<std::string>>();
   relief->inputs.name = state[9].cast<std::string>();
   return relief;
 }

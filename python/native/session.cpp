@@ -1,4 +1,5 @@
 // Lets Python prepare a model once and make many reliefs of it.
+#include "common/input_files.h"
 #include "common/prepared_model.h"
 #include "native/arrays.h"
 #include "native/call.h"
@@ -14,12 +15,14 @@ using SharedModel = std::shared_ptr<PreparedModel>;
 using SharedFrame = std::shared_ptr<FrameInMm>;
 
 SharedModel open(const py::list& sources, const py::dict& keywords, const py::object& callback) {
-  const app::MakeOrder order = order_of(sources, keywords);
+  app::MakeOrder order = order_of(sources, keywords);
+  order.paths_read = app::paths_read_by(order);
   return watched_value(callback, [&](Progress& progress) { return PreparedModel::prepare(order, progress); });
 }
 
 SharedRelief make(const SharedModel& prepared, const py::dict& keywords, const py::object& callback) {
-  const app::MakeOrder order = order_of(py::list(), keywords);
+  app::MakeOrder order = order_of(py::list(), keywords);
+  order.paths_read = app::paths_read_by(order);
   return watched_value(callback, [&](Progress& progress) { return prepared->make(order, progress); });
 }
 
