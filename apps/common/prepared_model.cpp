@@ -8,7 +8,13 @@
 namespace relievo::app {
 
 PreparedModel::PreparedModel(const LoadedOrder& loaded, LiveModel live)
-    : facts_(facts_of(loaded)), project_(loaded.project), live_(std::move(live)) {}
+    : facts_(facts_of(loaded)),
+      prepared_with_{.values = loaded.values,
+                     .input_arguments = {},
+                     .base_image_path = loaded.base_image_path,
+                     .base_image = loaded.base_image},
+      project_(loaded.project),
+      live_(std::move(live)) {}
 
 Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(MakeOrder order, Progress& progress) {
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
@@ -19,17 +25,28 @@ Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(MakeOrder order, P
   return std::shared_ptr<PreparedModel>(new PreparedModel(loaded, std::move(live)));
 }
 
+MakeOrder PreparedModel::completed(const MakeOrder& order) const {
+  MakeOrder complete = order;
+  complete.values = with_given(prepared_with_.values, order.values);
+  if (order.base_image || !order.base_image_path.empty()) return complete;
+  complete.base_image = prepared_with_.base_image;
+  complete.base_image_path = prepared_with_.base_image_path;
+  return complete;
+}
+
 Result<std::shared_ptr<FinishedRelief>> PreparedModel::make(const MakeOrder& order,
                                                             Progress& progress) const {
-  RELIEVO_TRY(const ReliefOptions options, options_of(order, project_));
+  RELIEVO_TRY(const ReliefOptions options, options_of(completed(order), project_));
   RELIEVO_TRY(MadeRelief made, naming(facts_.name, live_.relief(options, &progress)));
-  auto relief = std::make_shared<FinishedRelief>(std::move(made), facts_, options.draft_deg);
+  InputFacts facts = facts_;
+  facts.paths_read.insert(facts.paths_read.end(), order.paths_read.begin(), order.paths_read.end());
+  auto relief = std::make_shared<FinishedRelief>(std::move(made), std::move(facts), options.draft_deg);
   relief->end(progress);
   return relief;
 }
 
 Result<std::shared_ptr<FrameInMm>> PreparedModel::frame(const MakeOrder& order) {
-  RELIEVO_TRY(const ReliefOptions options, options_of(order, project_));
+  RELIEVO_TRY(const ReliefOptions options, options_of(completed(order), project_));
   const Lock lock(mutex_);
   RELIEVO_TRY(const LiveFrame made, live_.frame(options));
   auto shown = std::make_shared<FrameInMm>(*made.frame, made.mm_per_unit);

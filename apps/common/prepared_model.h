@@ -26,10 +26,11 @@ class PreparedModel {
 
   const ReliefModel& model() const { return live_.model(); }
 
-  // Makes a finished relief with the options of the order. Errors: those of options_of() and make_relief().
+  // Makes a finished relief. Options that the order does not state are those with which the model was prepared. Errors: those of options_of() and make_relief().
   Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
 
-  // Makes a frame with the order's options. Errors: those of options_of(); kind option for a method without frames.
+  // Makes a frame. Options that the order does not state are those with which the model was prepared. Errors: those
+  // of options_of(); kind option for a method without frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
   // Draws a frame of this model in that material. Errors: kind input for a frame whose number of points is
@@ -39,7 +40,11 @@ class PreparedModel {
  private:
   PreparedModel(const LoadedOrder& loaded, LiveModel live);
 
+  // Returns the order, completed by the options and the base's height map with which the model was prepared.
+  MakeOrder completed(const MakeOrder& order) const;
+
   InputFacts facts_;
+  MakeOrder prepared_with_;  // its options and its height map
   std::optional<StoredProject> project_;
   Mutex mutex_;  // guards the model's frames and pictures
   LiveModel live_;

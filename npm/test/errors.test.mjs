@@ -156,4 +156,7 @@ test("a session makes frames, pictures and the relief of make()", async () => {
   frame.release();
   const relief = session.make({ heightMm: 3 });
   assert.deepEqual(relief.solid("stl"), (await make(cloud, { heightMm: 3 })).solid("stl"));
+  const coins = await Session.open(cloud, { diameterMm: 40, rimMm: 1, heightMm: 3 });
+  assert.deepEqual(coins.make({ heightMm: 2 }).solid("stl"),
+    (await make(cloud, { diameterMm: 40, rimMm: 1, heightMm: 2 })).solid("stl"));
 });

@@ -74,8 +74,7 @@ class Session:
         _options.check("Session", options, _options.OF_MAKE)
         _options.check_progress(progress)
         sources = _inputs.sources_of(source, normals, colours, faces)
-        self._options = _options.texts(options)
-        self._native = _native.open(sources, self._options, progress)
+        self._native = _native.open(sources, _options.texts(options), progress)
 
     @property
     def points(self) -> NDArray[np.float64]:
@@ -100,14 +99,14 @@ class Session:
         options of the draft, the form, the base and the plate.
         """
         _options.check("frame", options, _options.OF_FRAME)
-        return Frame(self._native.frame({**self._options, **_options.texts(options)}))
+        return Frame(self._native.frame(_options.texts(options)))
 
     @_options.with_keywords(_options.OF_SESSION)
     def make(self, *, progress: Progress = None, **options: Any) -> Relief:
         """Returns the finished relief, as relievo.make() does, without preparing the scan again."""
         _options.check("make", options, _options.OF_SESSION)
         _options.check_progress(progress)
-        return Relief(self._native.make({**self._options, **_options.texts(options)}, progress))
+        return Relief(self._native.make(_options.texts(options), progress))
 
     def picture(
         self,

@@ -88,6 +88,15 @@ class Frames(unittest.TestCase):
         with self.assertRaises(relievo.Error):
             self.session.frame(height_mm=-4)
 
+    def test_and_reliefs_replace_options_of_the_session(self):
+        points = scan()
+        session = relievo.Session(points, plate="80x60", height_mm=3, resolution_mm=1)
+        relief, coin = session.make(), session.make(diameter_mm=40)
+        self.assertEqual(relief.to_bytes("stl"),
+                         relievo.make(points, plate="80x60", height_mm=3, resolution_mm=1).to_bytes("stl"))
+        self.assertEqual(coin.to_bytes("stl"),
+                         relievo.make(points, diameter_mm=40, height_mm=3, resolution_mm=1).to_bytes("stl"))
+
     def test_leak_nothing(self):
         session = relievo.Session(relievo.sample("shell", points=1000))
         sweep = [{"height_mm": 2 + i / 10, "saturation": i / 5} for i in range(10)]
