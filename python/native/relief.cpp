@@ -69,7 +69,8 @@ app::ReliefFiles files_of(const py::dict& paths, const std::string& units, Pictu
 
 void save(const SharedRelief& relief, const app::ReliefFiles& files) {
   value_or_raise(unlocked([&]() -> Result<void> {
-    RELIEVO_CHECK(app::check_outputs(files, relief->inputs.paths_read, relief->made.report.reach.has_value()));
+    RELIEVO_CHECK(
+        app::check_outputs(files, relief->inputs.paths_read, relief->made.report.reach.has_value()));
     RELIEVO_TRY(app::MadeFiles made, app::relief_files(files, relief->made, relief->draft_deg));
     if (!files.report.empty()) made.files.push_back(app::report_file(files, *relief, made.height_map));
     return app::write_files(made.files);
@@ -136,7 +137,7 @@ py::bytes bytes_of(const std::vector<T>& values) {
   return py::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
 }
 
-// Raises if `is_right` is false, because this version of the package cannot have written such a pickle.
+// Raises ValueError if `is_right` is false: then this version of the package cannot have written the pickle.
 void check(bool is_right) {
   if (!is_right) throw py::value_error("expected a pickle of a relief by this version of relievo");
 }
