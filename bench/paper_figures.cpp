@@ -1,5 +1,6 @@
-// Draws what the paper shows beside finished reliefs: weights, points, and reliefs by other mappings of heights.
-// docs/gallery/make runs it. Usage: relievo_paper_figures WHAT SCAN OUT.png, or relievo_paper_figures weights OUT.svg
+// Draws what the paper shows besides finished reliefs: weights, points, and reliefs by other mappings of
+// heights. docs/gallery/make runs this program. Usage: relievo_paper_figures WHAT SCAN OUT.png, or
+// relievo_paper_figures weights OUT.svg
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -86,14 +87,16 @@ Image8 on_white(const Image8& drawn) {
   return image;
 }
 
-// Places on the horse of Fig. 9. `share` is the position in the horse's bounding box, from its lower left corner.
+// A place on the horse of Fig. 9. `share` is the position from the lower left corner of the horse's bounding
+// box, as fractions of the box's width and height.
 struct Place {
   const char* name;
   Vec2 share;
 };
 const std::array places{Place{"abdomen", {.43, .54}}, Place{"hip", {.21, .65}}, Place{"neck", {.77, .84}}};
 
-// Returns the mean height of the points whose distance from the place is in `range`, in shares of the longer side.
+// Returns the mean height of the points whose distance from the place, as a share of the longer side, is in
+// `range`.
 double mean_height(const Scan& scan, const Relief& relief, const Vec2& place, const Vec2& range) {
   double sum = 0, count = 0;
   for (std::size_t i = 0; i < scan.visible.size(); ++i) {
@@ -103,8 +106,8 @@ double mean_height(const Scan& scan, const Relief& relief, const Vec2& place, co
   return sum / count;
 }
 
-// Prints, for each beta of Fig. 9, the heights at the places, and how much higher they are than their surroundings, as
-// shares of the relief's height. Returns a picture of the places.
+// Prints, for each beta of Fig. 9 and each place, the height of the place and this height minus the height of
+// the surroundings, both as shares of the relief's height. Returns a picture of the places.
 Result<Image8> saturation_picture(const Scan& scan) {
   Image8 image = white(scan);
   for (const Vec2& p : scan.visible) draw_point(scan, p, 200, image);
@@ -139,8 +142,8 @@ Image8 surface_picture(const Scan& scan, const Shown* shown) {
   return on_white(picture.image);
 }
 
-// Describes how heights are mapped from the control points to all visible points. The mapping interpolates the ratios
-// of these heights to known heights.
+// Describes how heights are mapped from the control points to all visible points. At the control points, the
+// heights are divided by known heights, and these ratios are interpolated.
 struct Mapping {
   bool is_gaussian = false;  // by Gaussian weights of the nearest control points, not by a B-spline
   enum class Known { none, depths, uncompressed } known = Known::uncompressed;
@@ -167,7 +170,8 @@ Heights known_heights(const Scan& scan, Mapping::Known known) {
   return depths;
 }
 
-// Returns, for each visible point, the mean of the ratios of its twelve nearest control points, with Gaussian weights.
+// Returns, for each visible point, the mean of the ratios at the twelve nearest control points, with Gaussian
+// weights.
 Heights gaussian_ratios(std::span<const Vec2> control, std::span<const float> ratios,
                         std::span<const Vec2> visible) {
   const KdTree<Vec2> tree(control);
@@ -211,7 +215,8 @@ Result<Heights> mapped_heights(const Scan& scan, const Mapping& mapping, double 
   return heights;
 }
 
-// Returns the picture of the relief, and prints how much its heights differ from those solved without control points.
+// Returns the picture of the relief. Prints how much its heights differ from the heights solved without
+// control points.
 Result<Image8> mapping_picture(const Scan& scan, const Mapping& mapping) {
   const double u = std::pow(4, -.01);
   RELIEVO_TRY(const Heights heights, mapped_heights(scan, mapping, u));
@@ -235,8 +240,9 @@ std::string curve(int panel, double most_x, const std::function<double(double)>&
   return text + "\"/>\n";
 }
 
-// Returns an SVG with four diagrams: Fig. 3, the weight of curvature (6) for several alpha, and for several beta; the
-// weight of the boundary (7); and the angle of the expected normal (5) over w, as a share of 90 degrees.
+// Returns Fig. 3 as an SVG with four diagrams: the weight of curvature (6), first for several alpha and then
+// for several beta; the weight of the boundary (7); and the angle of the expected normal (5) over w, as a
+// share of 90 degrees.
 std::string weight_curves() {
   constexpr double delta = .25;
   std::string text =

@@ -18,8 +18,8 @@ function writeModule() {
 }
 
 // The TypeScript type of an option follows from its unit and stage. OF_NUMBERS matches the units of texts that may also
-// be numbers or that start with a word. WITH_SETTINGS matches the units of words that may be followed by a colon and
-// settings. All other options that have words accept only these words.
+// be numbers, and the units of texts that start with a word. WITH_SETTINGS matches the units of words that a colon and
+// settings may follow. All other options that have words accept only these words.
 const OF_NUMBERS = /,|^(SIDE|NOISE|WHAT)$/, WITH_SETTINGS = /^(SHAPE|BODY)$/;
 
 function typeOf(option) {

@@ -34,7 +34,8 @@ bool is_scan_name(const std::string& path) {
   return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
 }
 
-// Returns whether the pages have pictures with such a name: contact-sheet.png, contact-sheet-2.png and so on.
+// Returns whether the pages may have a picture of this name: contact-sheet.png, contact-sheet-2.png and so
+// on.
 bool is_of_pages(const std::string& name) {
   return name == "contact-sheet" || name.starts_with("contact-sheet-");
 }
@@ -64,8 +65,8 @@ class Names {
   std::set<std::string> taken_;
 };
 
-// nlohmann::json throws on other texts when a job is printed. It leaves out their wrong bytes or replaces them,
-// as it is told.
+// Returns whether the text is UTF-8. nlohmann::json throws on any other text when a job is printed. For a
+// text that is not UTF-8, leaving out the wrong bytes and replacing them give different results.
 bool is_utf8(const std::string& text) {
   using Handler = Json::error_handler_t;
   const Json json = text;

@@ -46,7 +46,7 @@ struct Catalogue {
   std::string match;    // for a folder: a pattern of file names, such as "*.ply"; empty: all readable scans
   std::string outputs;  // the folder of the outputs, in which no scans are searched
   Options common;       // options of all scans; the table may override them for one scan
-  std::vector<std::string> endings = {};  // of the outputs of each job, which follow Job::name
+  std::vector<std::string> endings = {};  // endings of each job's outputs, appended to Job::name
 };
 
 // Returns the jobs of a folder and its subfolders, sorted by path, or the jobs of a table, row

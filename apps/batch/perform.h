@@ -57,7 +57,7 @@ struct JobResult {
 
 // Makes the outputs of a job unless they are up to date. They are up to date if this version made them from
 // the same contents and options, and if their sizes have not changed since then. A failed job is repeated
-// only if it may succeed now.
+// only if something that determines its outputs has changed, or if Record::may_succeed is true.
 JobResult perform(const PlannedJob& planned, const RunSettings& settings, int threads);
 
 // Returns the arguments with which `make` does the job.

@@ -12,10 +12,10 @@
 
 namespace relievo::app::batch {
 
-// The processes of the running jobs. If one crashes, or if the system kills it for lack of memory, only its job
-// fails. They are forks of this process that load no program, so a job starts faster than a shell command. They
-// end when this process ends or crashes. This process must not have started a thread, and must have no other
-// child processes.
+// The processes of the running jobs. If one crashes, or if the system kills it for lack of memory, only its
+// job fails. The processes are forks of this process that load no program, so a job starts faster than a
+// shell command. The forks end when this process ends or crashes. This process must not have started a
+// thread, and must have no other child processes.
 class Processes {
  public:
   explicit Processes(const RunSettings& settings) : settings_(settings) {}

@@ -180,9 +180,10 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// Returns the job's record if the job was done after list() printed its line; nothing if the record or the
-// first output is missing. This is needed because Dask (python/relievo/batch.py) gives the job of a dead
-// worker to another worker. The program that the dead worker started may have done the job meanwhile.
+// Returns the job's record from the journals; nothing if the record or the first output is missing. The line
+// that list() printed for the job had no record, so the job was done after that. This happens if Dask
+// (python/relievo/batch.py) gives the job of a dead worker to another worker: the program that the dead
+// worker started may have done the job meanwhile.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::RunSettings& settings) {
   const std::string output = batch::output_name(job, settings.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(settings.outputs) / output, ignored)) return std::nullopt;
@@ -227,8 +228,8 @@ Result<void> do_jobs(const BatchArguments& arguments) {
   return geometry_error(failed);
 }
 
-// Shows on standard error how many jobs are done: a bar with the remaining time if that is a terminal, otherwise a
-// line after every twentieth of the jobs. In both cases prints a line for each failed job.
+// Shows on standard error how many jobs are done: a bar with the remaining time if standard error is a
+// terminal, otherwise a line after every 5 % of the jobs. In both cases prints a line for each failed job.
 class BatchProgress {
  public:
   BatchProgress(std::size_t jobs, bool is_quiet)

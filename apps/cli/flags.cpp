@@ -61,8 +61,8 @@ LengthUnit unit_of(const CLI::App& command) {
 }
 
 // Converts a length to millimetres. If the text names no unit, the unit is that of --units, which may stand
-// before or after this flag. The converted text names its unit, because `batch` gives it to `make` together
-// with --units, which may be another in a row of a table.
+// before or after this flag. The converted text names its unit, because `batch` passes it to `make` together
+// with --units, and a row of a table may set another --units.
 CLI::Validator in_mm(const CLI::App& command, InMm convert) {
   const auto transform = [&command, convert](std::string& text) {
     const Result<std::string> mm = convert(text, unit_of(command));
@@ -73,7 +73,8 @@ CLI::Validator in_mm(const CLI::App& command, InMm convert) {
   return CLI::Validator(transform, "");
 }
 
-// Does the same, but leaves texts that are no length to the function that reads the flag.
+// Does the same as in_mm(), but leaves a text that is not a length unchanged for the function that reads the
+// flag.
 CLI::Validator length_in_mm_if_any(const CLI::App& command) {
   const auto transform = [&command](std::string& text) {
     text = length_in_mm(text, unit_of(command)).value_or(text);
@@ -88,7 +89,7 @@ CLI::Option* add_flag(CLI::App& command, OptionValues& values, const OptionRow& 
   return command.add_option_function<T>(cat("--", option.name), take);
 }
 
-// Adds a flag whose text in_mm() has converted before it is taken.
+// Adds a flag for a length. in_mm() converts the text of the flag before it is stored in `values`.
 CLI::Option* add_length_flag(CLI::App& command, OptionValues& values, const OptionRow& option) {
   const auto take = [&values, &option](const std::string& mm) {
     values[std::string(option.name)] = parse_length(mm).value_or(0);

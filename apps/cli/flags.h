@@ -1,5 +1,5 @@
-// Adds flags to a command: those of the table of options, of the commands that read a scan, and of those that make a
-// relief.
+// Adds flags to a command: flags for rows of the option table, the flags of commands that read a scan, and
+// the flags of commands that make a relief.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -57,8 +57,8 @@ struct SampledView {
 // parse_input_texts(), parse_options(), read_scene() and sample_for_view().
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress);
 
-// The options of a relief and of its files, as the user types them. `batch` has the same ones as `make`: as flags
-// for all scans, and as columns of its table.
+// The options of a relief and of its files, as the user types them. `batch` has the same options as `make`:
+// as flags for all scans, and as columns of its table.
 struct MakeOptions {
   MakeOrder order;
   InputTexts in;

@@ -35,7 +35,7 @@ std::string without_escapes(std::string_view uri) {
   return plain;
 }
 
-// Returns the JSON of a glTF file, or the first part of a GLB, which is its JSON.
+// Returns the JSON of a glTF or GLB file. In a GLB file the JSON is the first part.
 std::string gltf_text(const std::string& path) {
   if (!file_size(path)) return {};  // a pipe can be read only once
   std::ifstream file(path, std::ios::binary);

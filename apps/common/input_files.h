@@ -26,7 +26,8 @@ std::vector<InputFile> files_read_with(const std::string& path);
 std::vector<std::string> files_in_option(const std::string& option, const std::string& value,
                                          const std::string& folder = {});
 
-// Returns the paths of the existing files that the order reads. A missing file cannot be overwritten.
+// Returns the paths of the existing files that the order reads. Missing files are left out, because an output
+// cannot overwrite them.
 std::vector<std::string> paths_read_by(const MakeOrder& order);
 
 // Returns whether the option accepts the path of a file and `value` is the path of an existing file.

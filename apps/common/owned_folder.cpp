@@ -27,8 +27,8 @@ fs::path mark_in(const std::string& folder) {
   return fs::path(folder) / mark_name;
 }
 
-// Reads the mark of a folder. Returns owned if the mark names that owner, of_others if it names another one or is
-// missing, and unusable if it cannot be read.
+// Reads the mark of a folder. Returns `owned` if the mark names that owner, `of_others` if the mark is
+// missing or names another owner, and `unusable` if the mark cannot be read.
 Ownership read_mark(const std::string& folder, std::string_view owner) {
   std::error_code ignored;
   const fs::path mark = mark_in(folder);
@@ -50,7 +50,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
-// Writes the mark into a folder, even if the folder has other files. Returns owned or unusable.
+// Writes the mark into a folder, even if the folder has other files. Returns `owned` or `unusable`.
 Ownership mark_folder(const std::string& folder, std::string_view owner) {
   const std::string path = mark_in(folder).string(), text = mark_of(owner);
   TemporaryFile mark(path);

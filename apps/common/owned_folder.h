@@ -19,7 +19,7 @@ enum class Ownership {
 Ownership ownership_of(const std::string& folder, std::string_view owner);
 
 // Makes the folder with the permissions `mode` if it is missing, and marks it if it was missing or empty.
-// Returns owned if the folder now has the owner's mark. Changes nothing in a folder of others.
+// Returns `owned` if the folder now has the owner's mark. Changes nothing in a folder of others.
 Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode = 0777);
 
 }  // namespace relievo::app

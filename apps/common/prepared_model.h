@@ -26,7 +26,8 @@ class PreparedModel {
 
   const ReliefModel& model() const { return live_.model(); }
 
-  // Makes a finished relief. Options that the order does not state are those with which the model was prepared. Errors: those of options_of() and make_relief().
+  // Makes a finished relief. Options that the order does not state are those with which the model was
+  // prepared. Errors: those of options_of() and make_relief().
   Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
 
   // Makes a frame. Options that the order does not state are those with which the model was prepared. Errors: those
@@ -44,7 +45,7 @@ class PreparedModel {
   MakeOrder completed(const MakeOrder& order) const;
 
   InputFacts facts_;
-  MakeOrder prepared_with_;  // its options and its height map
+  MakeOrder prepared_with_;  // only the options and the base's height map are set
   std::optional<StoredProject> project_;
   Mutex mutex_;  // guards the model's frames and pictures
   LiveModel live_;

@@ -67,7 +67,8 @@ OptionValues with_given(OptionValues own, const OptionValues& given) {
     for (const std::string_view name : names)
       if (const auto found = own.find(name); found != own.end()) own.erase(found);
   };
-  // Each of these sets the height alone. The ground belongs to mm-per-value.
+  // Each of these four options determines the height, so only one of them may stay. The option ground is
+  // valid only with mm-per-value.
   const bool has_scale = has("mm-per-value");
   if (has("height") || has("height-of-diagonal") || has("alpha") || has_scale)
     drop({"height", "height-of-diagonal", "alpha", "mm-per-value"});

@@ -38,9 +38,9 @@ struct Project {
 // kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options `own` of a project, overridden by the options `given` by the user. Of options that exclude each
-// other, such as height and alpha, or plate and diameter, the project's are dropped if `given` has one of them, and so
-// are the method and the outline that go with them.
+// Returns the options `own` of a project, overridden by the options `given` by the user. Some options exclude
+// each other, such as height and alpha, or plate and diameter. If `given` has such an option, the options of
+// `own` that it excludes are dropped, and so is a method or an outline of `own` that may contradict it.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
 // Returns an object with the value of each option that has a given value or a default.

@@ -45,8 +45,8 @@ DepthValues usual_values(const DepthImage& image) {
   return has_heights ? DepthValues::height : DepthValues::depth;
 }
 
-// Reads a picture. If the options leave the meaning of its values open, sets it to luminance for a coloured
-// picture and to usual_values() for all other pictures.
+// Reads a picture. If `options.values` is `automatic`, sets it to `luminance` for a coloured picture, and to
+// usual_values() for all other pictures.
 Result<DepthImage> read_values(std::span<const std::byte> bytes, const std::string& path,
                                DepthOptions& options) {
   const auto read = [&](bool is_luminance_wanted) {
@@ -92,7 +92,7 @@ class FileSource : public ByteSource {
 };
 
 // Returns the size of the file in bytes if it is so large that it may have to be read in blocks; nothing for
-// smaller files. The largest number of points is compared with the bytes, as each point has at least one byte.
+// smaller files. `most_points` is compared with the number of bytes, as each point takes at least one byte.
 std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
   const std::optional<std::uint64_t> size = file_size(path);
   const double most = std::min(1e6 * arguments.stream_above_mb, arguments.most_points);

@@ -7,12 +7,12 @@
 
 namespace relievo::app {
 
-// Returns the name for users of a stage that the library or a program reports to Progress. Returns an unknown
-// name unchanged.
+// Returns the name under which users see a stage. `stage` is the name that the library or a program reports
+// to Progress. Returns an unknown name unchanged.
 std::string_view name_of_stage(std::string_view stage);
 
-// Returns an object with version, stages (from the names that Progress gets to the names for users), formats
-// (see format_list()), the endings of readable files, and the samples with their descriptions.
+// Returns an object with the keys version, stages (maps the names that Progress gets to the names that users
+// see), formats (see format_list()), endings (of readable files), and samples (with their descriptions).
 nlohmann::json program_facts();
 
 }  // namespace relievo::app

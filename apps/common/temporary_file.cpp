@@ -112,7 +112,8 @@ std::string own_path(const Descriptor& file) {
   return "/proc/self/fd/" + std::to_string(file.number());
 }
 
-// Makes a file without a name. Returns a closed descriptor if the file system could not give it a name later.
+// Makes a file without a name. Returns a closed descriptor if the file system could not give this file a name
+// later.
 Descriptor make_nameless(const std::string& folder, unsigned mode) {
   Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
@@ -130,8 +131,8 @@ void mark_unfinished(const Descriptor& file) {
 }
 
 // Removes the unfinished files in `folder` whose names start with `begin` and which no process has open. The
-// test of the name is needed because a file with its final name must stay. Such a file still has the mark if
-// its process was killed just after renaming it.
+// name is tested because a file with its final name must stay, even if it still has the mark: its process may
+// have been killed just after renaming it.
 void remove_abandoned(const std::string& folder, const std::string& begin) {
   std::error_code failed;
   for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;

@@ -32,8 +32,8 @@ std::string found(const nlohmann::json& value);
 
 // Returns the known name that a user most likely meant by `typed`: the first name with the smallest edit
 // distance. Returns an empty text if the distance is more than two and more than a third of the letters. If
-// at least four typed letters are the beginning of a name, its distance counts as one: "--out" means
-// --output, although --up is nearer.
+// `typed` has at least four characters, dashes included, and a name begins with them, the distance of this
+// name counts as one: "--out" means --output, although --up is nearer.
 std::string nearest_name(std::string_view typed, const std::vector<std::string>& names);
 
 }  // namespace relievo::app

@@ -126,9 +126,9 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
   return engine;
 }
 
-// Answers with the document of a scan and its stored state. If the scan's file is missing, but the user has
-// dropped a file with the same bytes on the page, the document uses that file instead; `moved` is then the
-// stored state of the missing file's document.
+// Answers with a scan's document and the document's stored state. If the scan's file is missing, but the user
+// has dropped a file with the same bytes on the page, the answer is about the document of the dropped file;
+// `moved` is then the stored state of the missing file's document.
 Result<Answer> Actions::document(const Json& json) {
   RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);
@@ -179,7 +179,8 @@ Result<Answer> Actions::keep(const Json& json) {
   if (time_of(state) < newest)
     return answer_of(Json{{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
   RELIEVO_CHECK(store_.keep_document(id, state.dump(), json.value("is_moving", false)));
-  // Once a page has taken the project with which the program was started, the project's document has newer work.
+  // A page that stores this document has taken the project with which the program was started. The document
+  // is now newer than the project, so later pages must not open the project.
   if (first_.contains("options")) {
     RELIEVO_TRY(const ScanSource first, input_in(first_));
     if (document_of(first) == id) first_.erase("options");

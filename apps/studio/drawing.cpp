@@ -60,8 +60,8 @@ CurveSamples sample_curve(const Shape& shape, double delta) {
   return samples;
 }
 
-// Rounds a height down to the decimals that the page shows for files. A height that is rounded up could
-// exceed the largest possible height.
+// Rounds a height down to as many decimals as the page shows for the heights of files. A height that is
+// rounded up could exceed the largest possible height.
 double rounded_down(double height_mm, double steps_per_mm) {
   return std::floor(height_mm * steps_per_mm) / steps_per_mm;
 }
@@ -70,8 +70,9 @@ bool is_flat(const ReliefOptions& options) {
   return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none;
 }
 
-// Returns whether FrameRenderer can draw the piece while only its heights change. FrameRenderer leaves out
-// ornaments, and what takes long to compute: the draft angle, the simplification, and the reach of a tool.
+// Returns whether FrameRenderer can draw the piece while only its heights change. FrameRenderer draws the
+// piece without ornaments, and without what takes long to compute: the draft angle, the simplification, and
+// the reach of a tool.
 bool is_frame_on_plate(const ReliefOptions& options) {
   return (is_flat(options) || options.outline != Outline::none) && options.form != Form::lithophane &&
          !options.mm_per_value;

@@ -158,9 +158,9 @@ class Drawing {
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
-  // Returns heights above the ground, in mm, along a line in the front view. If the request asks for the
-  // model, they are the heights of the model. If the piece is a relief on a rectangular plate, they are those
-  // of the relief. Otherwise they are those of the piece that picture() draws. Errors: those of picture().
+  // Returns heights above the ground, in mm, along a line in the front view: the heights of the model if the
+  // request asks for the model, the heights of the relief if the piece is a relief on a rectangular plate,
+  // and otherwise the heights of the piece that picture() draws. Errors: those of picture().
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:

@@ -59,7 +59,7 @@ struct Engine::State {
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>>
-      at_rest;  // progress of fine pictures and of pieces; null after other pictures
+      at_rest;  // progress of pictures with is_at_rest or is_finished; null after other pictures
 
   PieceMaker maker;
 
@@ -144,7 +144,7 @@ struct Engine::State {
   // used until the view is prepared, even if options change. While the turned relief is made, other pictures
   // can be drawn, and a request for another view cancels the making.
   Result<PictureAnswer> turned_picture(const PictureRequest& request) {
-    // The model that was shown, and the scans that were opened, when the turned relief was begun.
+    // The values of `drawn_model` and Shared::openings when the making of `relief` began.
     std::uint64_t model = 0, opening = 0;
     for (std::optional<ShownModel> relief;;) {
       {
@@ -208,7 +208,7 @@ void Engine::open(const ScanSource& input, const OptionValues& view) {
     s.best.reset();
   });
   state_->session.open(std::move(preparation));
-  // The session does not show the previous scan any more, so that a turned relief with this number is of the new one.
+  // The session has stopped showing the previous scan: a turned relief with this number is of the new scan.
   state_->shared.with([](Shared& s) { ++s.openings; });
 }
 
@@ -387,8 +387,8 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->control_points() > 0))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  // The options of a picture have the width that fits the plate; those of an export may have no width. After
-  // with_width() both describe the same piece, which is then made only once.
+  // The options of a picture have the width that fits the plate, but the options of an export may have no
+  // width. with_width() makes both equal, so the piece is made only once.
   RELIEVO_TRY(const ReliefOptions sized, with_width(model->surface(), options));
   return state_->maker.piece(use, shown, sized);
 }

@@ -67,9 +67,9 @@ class Engine {
   // Draw as the methods of Drawing do. While another view is being prepared, a picture shows a coarse relief
   // of the view that the request names or, if it names none, the last frame of the current model. A picture
   // of a finished piece waits until that piece is made. Any other picture cancels the making of that piece
-  // instead of waiting for it. A picture that is neither fine nor of a finished piece also cancels all fine
-  // pictures and all pictures of finished pieces. If ornaments have no room, the finished piece is made
-  // without them, and the answer says so. Errors: also those of piece().
+  // instead of waiting for it. A picture whose request has neither `is_at_rest` nor `is_finished` also
+  // cancels all pictures whose requests have one of the two. If ornaments have no room, the finished piece is
+  // made without them, and the answer says so. Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 

@@ -25,7 +25,7 @@ Result<ReliefOptions> options_in(const Json& json) {
   return options_from_json(json.value("options", Json()), "options");
 }
 
-// Returns the models of a scene file with their positions, as they are written in such a file; an empty array
+// Returns the models of a scene file and their poses, in the JSON form that scene files have; an empty array
 // for other scans.
 Json models_of(const ScanSource& input) {
   Json models = Json::array();

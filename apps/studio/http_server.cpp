@@ -201,7 +201,7 @@ struct HttpServer::Connections {
   }
 
   // Receives the bytes that have arrived on the watched connections, and closes connections that have ended
-  // or waited too long. `watched` and `waiting` are in the same order, but since `watched` was filled,
+  // or waited too long. `watched` and `waiting` are in the same order, but after `watched` was filled,
   // connections may have been removed from the front of `waiting` and added to its end. The caller has locked
   // `mutex`.
   void look_at(const std::vector<pollfd>& watched) {

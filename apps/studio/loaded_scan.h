@@ -33,14 +33,14 @@ class LoadedScan {
   // Returns the model if the scan is a single depth image, otherwise null.
   const SceneModel* depth_image() const;
 
-  // Returns the points of a cloud, without outliers, the vertices of a mesh, or points on all sides of a scene,
-  // whose models are placed as in the front view. Null if no scan was read.
+  // Returns the points of a cloud without its outliers, the vertices of a mesh or, for a scene, points on all
+  // sides of its models, which are placed as in the front view. Returns null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points on all sides of the scan, for turning it. On meshes they are scattered evenly. The models
-  // of a scene are placed as the view shows them, and keep these places while they are turned.
+  // Returns points on all sides of the scan, for turning the scan. On meshes the points are scattered evenly.
+  // The models of a scene are placed as the view shows them, and keep these places while the scene is turned.
   Result<std::shared_ptr<const Cloud>> all_sides(const View& view) const;
 
   // Returns the six sides of the scan as views, the best one first; see rank_views().

@@ -15,12 +15,13 @@ namespace relievo::app::studio {
 // The open documents and their engines. Every method may be called from any thread.
 class OpenDocuments {
  public:
-  // The largest number of open documents that no tab shows, and of all open documents. Beyond these limits, the least
-  // recently used document is closed. If a tab shows that document, the tab opens it again.
+  // The largest number of open documents that no tab shows, and the largest number of all open documents.
+  // Beyond these limits, the least recently used document is closed. If a tab shows that document, the tab
+  // opens it again.
   static constexpr std::size_t most_hidden = 1, most_open = 6;
 
-  // The largest number of known tabs. Beyond it, the tab that opened its document first is forgotten, because
-  // a tab that crashed never reports that it is closed.
+  // The largest number of known tabs. Beyond this number, the tab that has shown its document longest is
+  // forgotten. This limit is needed because a tab that crashed never reports that it is closed.
   static constexpr std::size_t most_tabs = 64;
 
   struct Entry {

@@ -42,8 +42,8 @@ struct NumberedModel {
 // cancels work whose purpose is a picture.
 enum class PieceUse { file, entry, picture };
 
-// Makes finished pieces, one at a time. Meanwhile other pictures can be drawn. Every method may be called
-// from any thread.
+// Makes finished pieces, one at a time. Pictures can be drawn while a piece is made. Every method may be
+// called from any thread.
 class PieceMaker {
  public:
   // `changed` is called when stage() has changed during piece() or draft_limit(). It may be empty.

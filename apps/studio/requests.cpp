@@ -107,8 +107,8 @@ Json to_json(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Rounds to thousandths. A thousandth is a quarter of a pixel in the page's curve. This keeps the HTTP header
-// short.
+// Rounds to thousandths, which keeps the HTTP header short. A thousandth is a quarter of a pixel in the
+// page's curve.
 Json rounded(const std::vector<double>& samples) {
   Json json = Json::array();
   for (const double sample : samples) json.push_back(std::round(sample * 1e3) / 1e3);
@@ -208,8 +208,8 @@ Result<ExportOrder> export_order_from(const Json& json) {
   return order;
 }
 
-// Returns the options for preparing a scan. An option without a value is an empty text, or null if it is a
-// number.
+// Returns the options for preparing a scan. An option without a value becomes null if the option is a number,
+// and an empty text otherwise.
 static Json view_json(const OptionValues& values) {
   Json json = Json::object();
   for (const OptionRow& option : option_table()) {

@@ -1,4 +1,5 @@
-// Stores documents with their thumbnails, and scans that were dropped on the page, beyond the end of the studio.
+// Stores documents, their thumbnails, and scans that were dropped on the page. They stay stored when the
+// studio ends.
 #pragma once
 
 #include <cstdint>

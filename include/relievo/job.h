@@ -66,7 +66,7 @@ class LiveModel {
   // that has no frames.
   Result<LiveFrame> frame(const ReliefOptions& options);
 
-  // Returns a picture of the frame on its plate. Lengths in the options replace the lengths in `render`.
+  // Returns a picture of the frame on its plate. Lengths in `options` replace the lengths in `render`.
   // Errors: those of frame() and check().
   Result<Picture> picture(const ReliefOptions& options, RenderOptions render = {});
 
@@ -94,9 +94,9 @@ class LiveModel {
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
-  // Draws the frame on the plate of the options. The picture shows neither ornaments nor simplification nor
-  // the marks of a tool, and it shows a draft only at the rim. Options without ground must have a plane base
-  // and no wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
+  // Draws `made` on the plate of the options. The picture shows no ornaments, no simplification and no tool
+  // marks, and it shows the draft angle only at the rim. Options without ground must have a plane base and no
+  // wrap. Errors: those of check(), check_model(), make_plate() and wrap_plate().
   Result<PlacedRelief> draw_on_plate(const LiveFrame& made, const ReliefOptions& options,
                                      const RenderOptions& render, Picture& picture, const Progress* progress);
   RenderOptions with_lengths(RenderOptions render, const ReliefOptions& options) const;
@@ -107,7 +107,7 @@ class LiveModel {
   std::unique_ptr<State> state_;
 };
 
-// Returns the live model of a job. Chooses the view if the options give none, samples the points that it
+// Returns the live model of a job. Chooses the view if View::is_best is set, samples the points that the view
 // shows, and prepares their model. Errors: those of sample_for_view() and of prepare() for a cloud.
 Result<LiveModel> prepare(const Job& job, Progress* progress = nullptr);
 

@@ -47,7 +47,7 @@ struct ScanReport {
 // Facts about a relief, and the options that were used.
 struct ReliefReport : ScanReport {
   Form form = Form::relief;
-  Method method = Method::paper;  // for baselines, alpha, beta, gamma and u have no meaning
+  Method method = Method::paper;  // alpha, beta, gamma and u have no meaning for baselines
   // NaN if beta is 0 or there is a tone curve, because then u determines the height, and alpha has no effect.
   double alpha = 0;
   double beta = 0, gamma = 0;
@@ -111,8 +111,9 @@ Result<ReliefModel> prepare(const Cloud& points, const View& view, const ModelOp
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// Returns the height in mm of the highest relief with the options' shape whose walls satisfy the draft angle,
-// if the options have one. The method must have a shape, see has_shape(). Errors: those of make_relief().
+// Returns the height in mm of the highest relief with the options' shape. If the options have a draft angle,
+// the walls of this relief satisfy it. The method must have a shape, see has_shape(). Errors: those of
+// make_relief().
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
                                   Progress* progress = nullptr);
 
@@ -132,7 +133,7 @@ Result<void> check_rim(const ReliefOptions& options, double height_mm);
 // model.
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Makes the relief of a cloud in memory; otherwise the same as the function for a file.
+// Does for a cloud in memory what the function above does for a file.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape for the options. If the relief must have a requested or default height, the search for
@@ -140,9 +141,9 @@ Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progre
 Shape shape_of(const ReliefOptions& options, double mm_per_unit = 1);
 
 // Returns the options with width_mm set. A given width stays. If only the size of the plate is given, the
-// width is the largest with which relief, margin and rim fit into the plate. Otherwise the width is the
-// default. A height that is a share of the diagonal is converted to mm. make_relief() includes this step.
-// Errors: kind option if the plate is too small.
+// width is the largest with which relief, margin and rim fit into the plate. If neither is given, the width
+// is the default. A height that is a share of the diagonal is converted to mm. make_relief() includes this
+// step. Errors: kind option if the plate is too small.
 Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
 
 // Returns the number of millimetres per unit of the surface, for the width from with_width().

@@ -67,8 +67,8 @@ struct OptionRow {
   std::string_view otherwise = {};             // the default in words, if it is not a fixed value
   // The value in a new document of the studio, if that differs from the default.
   std::string_view in_studio = {};
-  bool is_stated = false;  // whether the studio writes it into projects even if it is the default
-  bool is_hidden = false;  // true if the studio keeps it in projects, but has no control for it
+  bool is_stated = false;  // whether the studio writes the option into projects even at its default
+  bool is_hidden = false;  // true if the studio keeps the option in projects, but has no control for it
   OptionAccess access = {};
 
   bool is_number() const { return min <= max && max < std::numeric_limits<double>::infinity(); }

@@ -47,7 +47,7 @@ struct NumericOptions {
   std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // least thickness of the plate; see effective_thickness_mm()
   std::optional<double> rim_mm;          // width of a raised rim along the outline; default: no rim
-  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's height, if the bevel fits
+  std::optional<double> rim_height_mm;   // height of the rim; default: the relief's, or less to fit the bevel
   std::optional<double> rim_bevel_mm;    // width of the rim's bevel; default: 0.3 of the rim's height
   std::optional<double> text_mm;         // height of the text's capital letters; default: 0.6 of the margin
   std::optional<double> text_height_mm;  // height of the text above the ground, see Ornament

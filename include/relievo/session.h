@@ -20,10 +20,10 @@ struct SessionStatus {
   double fraction = 0;  // share of the preparation that is done, in [0, 1]
   // Error of the last preparation, if it failed or was cancelled; empty during a preparation.
   std::optional<Error> error;
-  // Whether turn() can return a coarse relief: the points are measured or the first coarse relief is made,
-  // and no first coarse relief is being made. This is long before the first model of the points is ready. The
-  // first coarse relief of a large cloud is made before all points are measured. Until they are measured,
-  // turn() to any other view returns an error of kind `cancelled`.
+  // Whether turn() can return a coarse relief. It can when the points are measured or the first coarse relief
+  // is made, long before the first model of the points is ready; but not while the first coarse relief is
+  // being made. The first coarse relief of a large cloud is made before all points are measured. Until they
+  // are measured, turn() to a view other than that of this relief returns an error of kind `cancelled`.
   bool can_turn = false;
 };
 
@@ -38,8 +38,8 @@ struct Preparation {
   View view = {};
   ModelOptions model = {Mode::automatic};
 
-  // Whether the points are those of another scan than that of the previous preparation. If no model was made
-  // of the previous points, they are then freed at once, so that turn() does not show them any more.
+  // Whether the points are from another scan than those of the previous preparation. If true, the previous
+  // points are freed at once unless a model was made of them, so that turn() does not show them any more.
   bool is_of_other_scan = false;
 
   // If set, it is called after points(), and returns a view that depends on the points.
@@ -83,7 +83,7 @@ class Session {
   // view changes; open() prepares the final view. It is made in the calling thread, in a few hundredths of a
   // second. The first call for a cropped cloud or a mesh takes longer, because it also measures the points of
   // all sides. A newer call of turn() and a call of cancel() cancel this call. turn() does not cancel a
-  // preparation, and open() does not cancel turn(), because a call may come late, when the final view is
+  // preparation, and open() does not cancel turn(), because turn() may be called late, when the final view is
   // already being prepared. Errors: kind geometry if no points have been measured yet, or if the view shows
   // no area; kind cancelled.
   Result<ShownModel> turn(const View& view);

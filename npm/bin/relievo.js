@@ -57,7 +57,7 @@ async function parse(args) {
 
 // Returns whether the text has lengths that --units applies to. The option mm-per-value has its unit in its name.
 function isOfUnits(option, text) {
-  if (option.unit === "TOOL") return !/^v:[^:]*$/.test(text); // such a tool has an angle alone
+  if (option.unit === "TOOL") return !/^v:[^:]*$/.test(text); // such a tool has an angle but no length
   return ["MM", "WxH", "X,Y"].includes(option.unit) && option.name !== "mm-per-value";
 }
 

@@ -156,8 +156,8 @@ export class Session {
     this.triangleCount = json.triangles;
   }
 
-  // Prepares a scan. The options are the defaults of frame() and make(); those of the view and of reading must be given
-  // here.
+  // Prepares a scan. The options are the defaults of frame() and make(). Options for reading the scan and for its view
+  // must be given here.
   static async open(source, options = {}) {
     const { engine, request } = await engineWith(source, options);
     return new Session(engine, watchedCall(engine, "open", request, options).json);

@@ -15,8 +15,8 @@ const keywords = new Map([...all.map((keyword) => [keyword.replace(/(Mm|Deg|Mb)$
 const isBytes = (source) => source instanceof ArrayBuffer || ArrayBuffer.isView(source);
 const isReadable = (source) => typeof source?.read === "function";
 
-// Returns a name for a file whose first bytes are given, because readers recognise some formats only by the name. STL
-// is the only such binary format; a text STL begins with "solid".
+// Returns a name for a file whose first bytes are given, because readers recognise some formats only by the name. Of
+// these formats only STL can be binary; a text STL begins with "solid".
 function guessName(bytes) {
   const head = String.fromCharCode(...new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, Math.min(512, bytes.byteLength)));
   const known = [["ply", "scan.ply"], ["LASF", "scan.las"], ["glTF", "scan.glb"], ["\x89PNG", "scan.png"], ["\xFF\xD8\xFF", "scan.jpg"], ["\x93NUMPY", "scan.npy"],

@@ -129,8 +129,9 @@ SharedSystem height_system(const py::array& points, std::optional<double> rho, c
   return value_or_raise(unlocked([&] { return build_system(at, rho, weight); }));
 }
 
-// Returns the slopes without a copy if their layout is that of the library. Other threads may write to the
-// array while the library reads it, because the library uses the slopes only as numbers and never as indices.
+// Returns the slopes without a copy if their layout is that of the library. It does no harm if other threads
+// write to the array while the library reads it, because the library uses the slopes only as numbers and
+// never as indices.
 std::optional<std::span<const Vec2>> slopes_in_place(const py::array& slopes) {
   const bool is_plain = slopes.dtype().is(py::dtype::of<double>()) && slopes.ndim() == 2 &&
                         slopes.shape(1) == 2 && (slopes.flags() & py::array::c_style) != 0;

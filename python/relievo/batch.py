@@ -29,7 +29,7 @@ from dataclasses import dataclass
 Record = dict[str, typing.Any]  # the record of one scan, as in scans.jsonl
 Watch = typing.Callable[[Record, int, int], None]
 
-# The largest number of attempts for a scan. It is tried again if the system killed its program or a disk was full.
+# The largest number of attempts for a scan. A scan is tried again if the system killed its program or a disk was full.
 TRIES = 3
 # Dask gets up to this many scans in one task, because each task, and each start of the program, takes several
 # milliseconds.

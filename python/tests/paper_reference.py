@@ -144,7 +144,7 @@ def mean_curvature(points, normals, index, rho):
         counts = np.array([len(one) for one in lists])
         q = np.concatenate(lists).astype(np.int64)
         starts = np.cumsum(counts) - counts
-        with np.errstate(divide="ignore", invalid="ignore"):  # curvature_of_jet() turns these into 0.
+        with np.errstate(divide="ignore", invalid="ignore"):  # curvature_of_jet() turns NaN and infinity into 0.
             g = mls_jet(np.repeat(points[part], counts, axis=0).T, points[q].T, normals[q].T, starts, h)
             result.append(curvature_of_jet(g))
     return np.concatenate(result)

@@ -74,8 +74,8 @@ class Paper(unittest.TestCase):
     def agrees(self, points, normals, *coefficients, correlation=0.999, error=0.005):
         """Compares heights of program and reference for coefficients alpha, beta and gamma, at points visible in both
         and not on the boundary, which the program puts on the base. The error is the rms as a share of the height."""
-        # The reference gets normals in single precision, as the program uses them. At beta = 0.01, even the
-        # curvatures that rounding errors cause on a plane get weights of about 0.5 by (6).
+        # The reference gets normals in single precision, as the program uses them, because rounding errors matter: at
+        # beta = 0.01, even the curvatures that rounding errors cause on a plane get weights of about 0.5 by (6).
         front = reference.Front(points, normals.astype(np.float32))
         for alpha, beta, gamma in coefficients:
             session = relievo.Session(points, normals=normals, method="paper", alpha=alpha, saturation=beta, detail=gamma)

@@ -25,7 +25,8 @@ class Types(unittest.TestCase):
 
     @unittest.skipUnless(find_spec("mypy"), "SKIPPED: mypy is not installed (python3-mypy)")
     def test_pass_stubtest(self):
-        # The sources of the private modules are checked instead. stubtest would even check the names that they import.
+        # Leaves out the private modules, because stubtest would even check the names that they import. Their sources
+        # are checked instead.
         with tempfile.NamedTemporaryFile("w", suffix=".txt") as private:
             private.write("relievo\\._.*\n")
             private.flush()

@@ -33,7 +33,7 @@ std::vector<Index> indices_where(std::size_t n, IsWanted&& is_wanted) {
   return found;
 }
 
-// Returns how many of the numbers i in [0, n) is_counted(i) is true for, calling it concurrently.
+// Returns the number of indices i in [0, n) for which is_counted(i) is true. Calls is_counted() concurrently.
 template <typename IsCounted>
 std::size_t count_where(std::size_t n, const IsCounted& is_counted) {
   const auto count = [&](std::size_t begin, std::size_t end) {

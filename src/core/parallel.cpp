@@ -54,8 +54,8 @@ struct Job {
     return true;
   }
 
-  // Stores the exception of the first block that fails. All earlier blocks have begun already, so the first
-  // failing block is the same for any number of threads.
+  // Stores the exception of the failing block with the lowest index. All blocks with lower indices have begun
+  // already, so this block is the same for any number of threads.
   void fail(std::size_t block) {
     const std::lock_guard lock(failing);
     next = blocks;

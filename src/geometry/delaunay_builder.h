@@ -25,7 +25,8 @@ class DelaunayBuilder {
   bool insert(Index p);
 
   // Inserts a point that was added to `points` after construction. Its index in the result is p. The search
-  // for its triangle begins at `triangle` or, if that is outside, at the last inserted point.
+  // for its triangle begins at `triangle` or, if that triangle is outside the hull, at the last inserted
+  // point.
   bool insert_added(Index p, Index triangle);
 
   Triangulation result() const;
@@ -75,8 +76,8 @@ class DelaunayBuilder {
   void add_triangle(Index a, Index b, Index c);
   Index split(Index e, Index p);
   void flip(Index e);
-  // All triangles around the newest point have it at slot 2 (see edges_). `e` is slot 0 of one of them.
-  // Returns slot 0 of the next one, counted around this point.
+  // Returns slot 0 of the next triangle around the newest point. `e` is slot 0 of a triangle around this
+  // point. All these triangles have the point at slot 2 (see edges_).
   Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
 
   std::vector<Index> number_triangles() const;
@@ -85,8 +86,8 @@ class DelaunayBuilder {
 
   const std::vector<Vec2>& points_;
   std::vector<Index> names_;
-  // Triangle t has four slots: the half-edges 4 t, 4 t + 1 and 4 t + 2, and an unused one. The fourth makes index
-  // arithmetic cheap, and no triangle crosses a cache line.
+  // Triangle t has four slots: the half-edges 4 t, 4 t + 1 and 4 t + 2, and an unused one. Thanks to the
+  // unused slot, index arithmetic is cheap and no triangle crosses a cache line.
   std::vector<HalfEdge> edges_;
   Index near_ = 0;  // slot 0 of a triangle around the last inserted point, not of a ghost
 };

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// A node of the curve, with its position along the curve as a length.
+// A node of the curve. `length` is the position of the node along the curve.
 struct Sample {
   double length;
   Vec2 place;
@@ -258,11 +258,12 @@ double distance_from_line(const Vec2& place, std::span<const Vec2> line) {
   return nearest;
 }
 
-// Returns whether the samples near a corner are about as close to its sides as to the smooth curve. At the tip of a
-// round shape they are not, because the sides intersect beyond the tip.
+// Returns whether the samples near a corner are about as close to the corner's sides as to the smooth curve.
+// At the tip of a round shape the samples are farther from the sides, because the sides intersect beyond the
+// tip.
 bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> drawn, double window) {
-  // The limit of the ratio of the two sums of squared distances. The ratio reaches 10 at corners of noisy
-  // gears.
+  // The limit of the ratio between two sums of squared distances of the samples: from the sides, and from the
+  // curve. The ratio reaches 10 at corners of noisy gears.
   constexpr double scatter = 12;
   const auto n = static_cast<std::ptrdiff_t>(drawn.size());
   const double per_length = static_cast<double>(n) / course.length();
@@ -282,8 +283,9 @@ bool is_confirmed(const Course& course, const Corner& c, std::span<const Vec2> d
   return from_sides < scatter * from_curve;
 }
 
-// Returns the corners in their order along the course. Of corners closer together than 1.5 windows only the
-// sharpest is returned. The length of a corner is that of the nearest place on the drawn curve.
+// Returns the corners in their order along the course. Of corners that are closer together than 1.5 windows,
+// only the sharpest is returned. Corner::length is the length at that place of the drawn curve which is
+// nearest to the corner.
 std::vector<Corner> corners_of(const Course& course, FairCurveOptions options) {
   options.window = options.corner_window;
   const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));

@@ -44,8 +44,9 @@ class EdgeHolder {
     return static_cast<std::size_t>(std::ranges::find(corners, point) - corners.begin());
   }
 
-  // Calls visit(side) for the sides opposite to `point` in the triangles around it, until visit() returns true.
-  // Returns the side for which it does; the side's triangle is no_index if there is none.
+  // Calls visit(side) for the side opposite to `point` in each triangle around `point`, until visit() returns
+  // true. Returns the side for which visit() returned true. If there is none, the result's triangle is
+  // no_index.
   template <typename Visit>
   EdgeOfTriangle around(Index point, Visit&& visit) const {
     for (const std::size_t turn : {std::size_t{1}, std::size_t{2}}) {
@@ -99,8 +100,8 @@ class EdgeHolder {
     if (t != no_index) *std::ranges::find(mesh_.neighbours[t], old) = by;
   }
 
-  // This side is an edge between two triangles, which form a quadrilateral. Replaces it by the other
-  // diagonal.
+  // Replaces `side`, an edge between two triangles, by the other diagonal of the quadrilateral that the two
+  // triangles form.
   void flip(const EdgeOfTriangle& side) {
     const Index t = side.triangle, s = mesh_.neighbours[t][side.apex];
     const Index p = corner(side, 0), u = corner(side, 1), v = corner(side, 2);
@@ -115,7 +116,7 @@ class EdgeHolder {
     at_[p] = at_[u] = at_[q] = t, at_[v] = s;
   }
 
-  // Returns the corner that faces the side from the neighbouring triangle.
+  // Returns the corner opposite to `side` in the triangle beyond `side`.
   Index facing(const EdgeOfTriangle& side) const {
     const Index s = mesh_.neighbours[side.triangle][side.apex];
     return mesh_.triangles[s][(place_of(s, corner(side, 1)) + 1) % 3];

@@ -87,8 +87,8 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
-  // Points in a cell with more points than this are sorted along a finer curve in the cell, repeatedly. A stack
-  // replaces recursion, which nested clusters could make deep.
+  // If a cell has more points than this, these points are sorted along a finer curve in the cell, and so on.
+  // A stack replaces recursion, which nested clusters could make deep.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;
   if (!entries.empty()) todo.emplace_back(entries);

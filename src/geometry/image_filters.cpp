@@ -103,8 +103,9 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// `lowest` is the smallest maximum found so far in the block. Returns the largest horizontal distance from the block
-// at which a value of the row, minus the height of the shape there, can exceed `lowest`; -1 if no value can.
+// `lowest` is the smallest of the maxima found so far for the samples of the block. Returns the largest
+// horizontal distance from the block at which a value of the row, minus the height of the shape there, can
+// exceed `lowest`; -1 if no value can.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
     const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
@@ -150,8 +151,8 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
-// Returns the greatest x at which the shape has a height, for each y from 0 to its reach; -1 if there is none. Returns
-// nothing if the heights of the shape are not all 0.
+// Returns, for each y from 0 to the shape's reach, the greatest x at which the shape's height is finite; -1
+// if there is none. Returns an empty list if a finite height of the shape is not 0.
 std::vector<int> widths_if_flat(const Profile& profile) {
   std::vector<int> widths(static_cast<std::size_t>(profile.reach()) + 1, -1);
   for (int y = 0; y <= profile.reach(); ++y)
@@ -163,7 +164,8 @@ std::vector<int> widths_if_flat(const Profile& profile) {
   return widths;
 }
 
-// Replaces each value by the maximum of `length` values and the `length` values after them, within its row.
+// Doubles the length of the runs. Before the call, each value is the maximum of `length` values of its row,
+// from its own position on.
 void double_runs(Framed& runs, std::size_t length) {
   const auto stride = static_cast<std::size_t>(runs.stride);
   parallel_for(
@@ -175,8 +177,8 @@ void double_runs(Framed& runs, std::size_t length) {
       16);
 }
 
-// Dilates by a flat shape. The maximum over a row of the shape is that of two runs of 2^k values which overlap, so the
-// time is proportional to the shape's reach and not to its area.
+// Dilates by a flat shape. The maximum over a row of the shape is the greater maximum of two runs of 2^k
+// values that overlap. So the time is proportional to the shape's reach and not to its area.
 void dilate_by_runs(Framed runs, const std::vector<int>& widths, int border, Image<float>& out) {
   const int longest = 2 * *std::ranges::max_element(widths) + 1;
   for (int length = 1; length <= longest; length *= 2) {
@@ -201,8 +203,8 @@ void dilate_by_runs(Framed runs, const std::vector<int>& widths, int border, Ima
   }
 }
 
-// The number of rows or columns that are averaged at the same time, each for itself. Columns that are neighbours
-// stand side by side in memory, so that each access to memory uses a whole cache line.
+// The number of rows or columns that are averaged at the same time, independently of each other. Neighbouring
+// columns are side by side in memory, so that each access to memory uses a whole cache line.
 constexpr std::size_t lanes = 16;
 using Lanes = std::array<float, lanes>;
 

@@ -36,8 +36,7 @@ class NearSearch {
 
  private:
   static constexpr std::size_t most_together = 16;
-  // The largest radius of a common query for several balls, as a multiple of the radius of the smallest of
-  // them.
+  // The largest radius of a common query for several balls, as a multiple of the smallest ball's radius.
   static constexpr double widest = 4;
   static constexpr int dimension = Point::RowsAtCompileTime;
 

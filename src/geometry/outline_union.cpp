@@ -102,15 +102,16 @@ std::vector<CutSide> sides_of(const Outlines& outlines) {
   return sides;
 }
 
-// Returns how a side changes the winding number of a place to the left of which it is.
+// Returns 1 if the side from a to b crosses the horizontal ray to the right of `place` upwards, -1 if it
+// crosses this ray downwards, else 0. The sum over all sides is the winding number.
 int turns_at(const Vec2& a, const Vec2& b, const Vec2& place) {
   const double left = cross(b - a, place - a);
   if (a.y() <= place.y() && b.y() > place.y() && left > 0) return 1;
   return b.y() <= place.y() && a.y() > place.y() && left < 0 ? -1 : 0;
 }
 
-// Computes winding numbers. Sides are sorted into horizontal strips, so that only the sides in the strip of a
-// position are visited for this position.
+// Computes winding numbers. Sides are sorted into horizontal strips, so that a position is compared only with
+// the sides in its strip.
 class WindingRows {
  public:
   explicit WindingRows(const std::vector<CutSide>& sides) : sides_(sides) {

@@ -42,7 +42,8 @@ void add_corner(const Vec2& corner, const Vec2& before, const Vec2& after, std::
   const bool is_reflex = cross(before, after) < 0;
   const double turn = std::acos(std::clamp(before.dot(after), -1.0, 1.0));
   if (!is_reflex && opening < least_opening) return rays.push_back({corner, Vec2::Zero()});
-  // The length of the direction is more than 1, so that t is the distance from the lines of both sides.
+  // The direction is longer than 1, so that the ray's point at t is at distance t from the lines of both
+  // sides.
   if (!is_reflex || turn < fan_step)
     return rays.push_back({corner, (before + after) / opening, false, turn > fan_step});
   const int steps = static_cast<int>(std::ceil(turn / fan_step));
@@ -206,8 +207,9 @@ class ShapePointMaker {
     }
   }
 
-  // Connects each foot to the points above it, so that the wall between two rays is plane. Edges where two walls meet
-  // come first, so that no other point gets too close to them.
+  // Connects each foot to the points above it, so that the wall between two rays is plane. Rays along which
+  // two walls meet come first (`are_edges`), so that no other point gets too close to the edges along these
+  // rays.
   void add_spokes(std::size_t loop, bool are_edges) {
     for (std::size_t i = 0; i < loops_[loop].size(); ++i) {
       const Ray& ray = loops_[loop][i];
@@ -265,8 +267,8 @@ class ShapePointMaker {
     return low > 1e-3 * depth_ ? std::optional(low) : std::nullopt;
   }
 
-  // Returns two distances along the ray that are close to each other: is_clear() is true at the first one and false
-  // at the second one. It must be false at `high`.
+  // Returns two distances along the ray that are close to each other: is_clear() is true at the first one and
+  // false at the second one. is_clear() must be false at `high`.
   std::pair<double, double> clear_limits(const Ray& ray, double high) const {
     double low = 0;
     for (int k = 0; k < halvings; ++k) {

@@ -26,8 +26,8 @@ std::uint16_t cell_of(int steps, int most) {
   return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
 }
 
-// A linear function of the pixel that is not negative inside the triangle. Its values are integers below 2^53, so
-// doubles are exact.
+// A linear function of a pixel's column and row. The function is not negative inside the triangle. Its values
+// are integers below 2^53, so doubles are exact.
 struct EdgeFunction {
   double value;  // value at the centre of column 0 of the current row
   double per_column, per_row;

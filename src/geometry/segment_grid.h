@@ -31,15 +31,15 @@ class SegmentGrid {
   std::span<const Segment> segments() const { return segments_; }
 
   // Returns the nearest segment within the radius, ignoring curve number `except`. If the nearest point is
-  // shared by two segments of a curve, the segment whose line is farther away determines `is_left`.
+  // shared by two segments of a curve, the segment whose line is farther from `place` determines `is_left`.
   NearestSegment nearest(const Vec2& place, double radius, Index except = no_index) const;
 
   // Returns the nearest segment within the radius whose direction differs from `direction`, a unit vector, by
   // at most 107 degrees.
   NearestSegment nearest_along(const Vec2& place, double radius, const Vec2& direction) const;
 
-  // Returns whether a segment properly crosses the one from a to b: the ends of each lie on different sides
-  // of the other.
+  // Returns whether a segment of the grid properly crosses the line from a to b: the ends of each of the two
+  // are on different sides of the other one.
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
  private:

@@ -19,10 +19,10 @@ constexpr std::size_t most_visits = 10;  // per triangle of the field on average
 // over the limit forever, by ever smaller amounts. A larger fraction pushes more neighbours over the limit.
 // So the fraction grows with the number of sweeps.
 constexpr double least_spare = 2e-5, most_spare = 1e-3;
-// Two thin triangles with a common short edge can undo each other's moves of its ends. Only moves of their
-// distant corners help, and least squares hardly moves those. So every 64th sweep scales the heights of
-// triangles instead, by at most most_spare, which breaks such cycles. Scaling is rare, because it moves
-// points further than necessary.
+// Two thin triangles that share a short edge can undo each other's moves of the two ends of this edge. Only
+// moves of the triangles' distant corners help, and least squares hardly moves these corners. So every 64th
+// sweep scales the heights of triangles instead, by at most most_spare, which breaks such cycles. Scaling is
+// rare, because it moves points further than necessary.
 constexpr int sweeps_to_scaling = 64;
 
 // Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely steep. An

@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// The slope of a point may differ from the mean slope of the triangles around it by at most this. The first
-// value holds inside the surface, the second at its edge. The unit is the largest difference of one of these
-// triangles from the mean, measured in the direction of the point's difference.
+// Limits of the difference between the slope of a point and the mean slope of the triangles around the point:
+// inside the surface, and at the surface's edge. The unit is the largest difference between the slope of one
+// of these triangles and the mean, measured in the direction of the limited difference.
 constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -163,7 +163,7 @@ template <typename Third>
 double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
   const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
-  // The position of the projection of s onto the edge, as a share of the edge.
+  // The position of s, projected onto the edge: 0 at a, 1 at b.
   const double foot = (s - a).dot(edge) / edge.squaredNorm();
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;
@@ -188,8 +188,8 @@ struct SmoothSurface::Fan {
 };
 
 // Limits a slope to slightly more than the range of the triangles' slopes. Slopes from the other side of a
-// bend would make the surface oscillate beside it. If the triangles do not enclose the point, its slope is
-// extrapolated and may exceed the range further.
+// bend would make the surface oscillate beside the bend. If the triangles do not enclose the point, the
+// point's slope is extrapolated and may exceed the range further.
 Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   const double off = (slope - fan.mean).norm();
   if (!(off > 0)) return slope;
@@ -199,10 +199,10 @@ Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
   return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
 }
 
-// Returns, per point, whether the smooth triangles around it do not enclose it. In each of them,
-// counter-clockwise, one corner comes after the point and another one before it. `balance` is the sum of the
-// indices of the corners after it, minus the sum of those before it. Around an enclosed point each neighbour
-// comes after it once and before it once, so its balance is 0.
+// Returns, per point, whether the smooth triangles around the point do not enclose it. Counter-clockwise,
+// each of these triangles has one corner after the point and one corner before the point. `balance` is the
+// sum of the indices of the corners after the point, minus the sum of the indices of the corners before it.
+// If a point is enclosed, each of its neighbours is counted once in each sum, so `balance` is 0.
 std::vector<std::uint8_t> SmoothSurface::open_points() const {
   // Indices are hashed, because sums of plain indices would often be 0 by chance.
   const auto scattered = [](Index i) { return i * 2654435761U ^ i * 2654435761U >> 15; };

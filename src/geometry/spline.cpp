@@ -138,9 +138,9 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
 void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy) {
   std::copy_n(nodes.begin(), coarse.columns * coarse.rows, copy.begin());
   const std::size_t columns = 2 * coarse.columns - 3, rows = 2 * coarse.rows - 3;
-  // The first node of each lattice lies one of its own cells outside the domain. So a node of the finer
-  // lattice coincides with a node of the coarser one where c and r are odd. The paper calls these positions
-  // even.
+  // The first node of each lattice lies outside the domain by the width of one cell of the same lattice. So a
+  // node of the finer lattice coincides with a node of the coarser one where c and r are odd. The paper calls
+  // these positions even.
   for (std::size_t r = 0; r < rows; ++r) {
     for (std::size_t c = 0; c < columns; ++c) {
       const float* node = copy.data() + (r / 2) * coarse.columns + c / 2;

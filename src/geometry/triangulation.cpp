@@ -54,10 +54,10 @@ bool DelaunayBuilder::start() {
   return true;
 }
 
-// Returns a half-edge of a triangle that has p inside or on its border, or of a ghost whose hull edge has p
-// strictly outside. In a Delaunay triangulation the walk never returns to a triangle, for two reasons. With
-// each step to another circle, the power of p with respect to the circle decreases. Triangles with a common
-// circle are linked as a tree.
+// Returns a half-edge of a triangle that contains p inside or on its border or, if p is outside the hull, of
+// a ghost whose hull edge has p strictly on its outer side. In a Delaunay triangulation the walk never
+// returns to a triangle, for two reasons. With each step to another circle, the power of p with respect to
+// the circle decreases. Triangles with a common circle are linked as a tree.
 Index DelaunayBuilder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;

@@ -12,7 +12,7 @@
 namespace relievo {
 
 namespace detail {
-// Returns a coordinate's bits. Adding 0 turns -0 into 0, which coincides with it.
+// Returns a coordinate's bits. Adding 0 turns -0 into 0, so that 0 and -0 have the same bits.
 inline std::uint64_t bits_of(double coordinate) {
   return std::bit_cast<std::uint64_t>(coordinate + 0.0);
 }

@@ -11,8 +11,8 @@
 
 namespace relievo::io {
 
-// Return whether the file has this format. This is decided by the content or, where the content does not show
-// it, by the name. `source` may be only the beginning of a file.
+// Return whether the file has this format. The content decides; if it does not show the format, the name
+// decides. `source` may be only the beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
 bool is_laz(const Source& source);
@@ -64,11 +64,11 @@ bool is_text(const Source& source);
 //   first. Three columns that are unit vectors in nine of ten rows are normals. Three columns of integers
 //   from 0 to 255 or of fractions from 0 to 1 are colours. A line of column names, if there is one,
 //   determines the columns instead. Other columns may contain anything. A first line may state the number of
-//   points, as in PTS. Fewer points are an error; more points, or another number with its points, may follow.
-//   Comments (#, //) are allowed. Numbers have a decimal point, or a decimal comma if semicolons separate
-//   them; they may be in quotation marks. If two columns of integers precede three columns of fractions, the
-//   integers are a scanner's rows and columns, and the fractions are x y z. A first column of point numbers
-//   is skipped.
+//   points, as in PTS. Fewer points are an error. More points may follow, or the number and the points of
+//   another scan. Comments (#, //) are allowed. Numbers have a decimal point, or a decimal comma if
+//   semicolons separate them; they may be in quotation marks. If two columns of integers precede three
+//   columns of fractions, the integers are a scanner's rows and columns, and the fractions are x y z. A first
+//   column of point numbers is skipped.
 // - PTX: all scans, transformed by their matrices. Points at their scanner's origin count as not measured.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);

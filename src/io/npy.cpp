@@ -37,8 +37,8 @@ std::optional<SampleFormat> sample_format_of(std::string_view type) {
   return std::nullopt;
 }
 
-// Returns the numbers in a text such as "160, 160" without those that are 1; nothing if the text contains
-// anything else.
+// Returns the sizes in a text such as "160, 160", except those that are 1. Returns nothing if a part of the
+// text is not a size.
 std::optional<std::vector<std::size_t>> sizes_of(std::string_view shape) {
   std::vector<std::size_t> sizes;
   while (!trim(shape).empty()) {

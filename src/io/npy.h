@@ -26,8 +26,8 @@ struct NpyArray {
   // points.
   bool has_points() const;
 
-  // Returns number `column` of the last dimension in row `row`; rows are counted through all other
-  // dimensions, and the last of these changes fastest.
+  // Returns the number at index `column` of the last dimension. `row` counts through all other dimensions, of
+  // which the last changes fastest.
   template <typename Number>
   Number number(const Source& source, std::size_t row, std::size_t column) const {
     const char* const from = source.bytes.data() + data + bytes_per_number() * place(row, column);

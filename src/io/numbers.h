@@ -25,8 +25,8 @@ std::size_t size_in_bytes(NumberType type);
 // Returns the integer from 0 to 255 that is nearest to the value; 0 for NaN.
 std::uint8_t as_byte(double value);
 
-// Returns colours as bytes. The values are from 0 to 1, 255 or 65535: the smallest of these limits that
-// contains the largest value. Returns no colours if the largest value exceeds 65535.
+// Returns colours as bytes. The range of the values is taken as 0 to 1, 0 to 255 or 0 to 65535, whichever is
+// the smallest that contains the largest value. Returns no colours if the largest value exceeds 65535.
 std::vector<Colour> colours_in_bytes(const std::vector<Vec3f>& values);
 
 // Decodes `rows` values that are `stride` bytes apart.

@@ -140,7 +140,7 @@ class ObjReader {
     return {};
   }
 
-  // This check comes last, because faces may precede their vertices.
+  // Checks the corners' vertices after all lines have been read, because faces may precede their vertices.
   Result<void> check_vertices() const {
     if (corners_.empty() || highest_vertex_ < points_.size()) return {};
     return lines_.source().error_in_line(
@@ -148,7 +148,8 @@ class ObjReader {
                            highest_vertex_ + std::size_t{1}));
   }
 
-  // Some programs refer to normals that they do not write. The geometry is complete without them.
+  // Removes references to normals that the file lacks; some programs write such references. The geometry is
+  // complete without normals.
   void forget_missing_normals() {
     for (Corner& c : corners_)
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;

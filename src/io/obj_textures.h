@@ -13,8 +13,8 @@
 
 namespace relievo::io {
 
-// Converts an index that counts from 1, or backwards from -1 at the `defined` entries before it, to one that counts
-// from 0.
+// Converts an index in an OBJ file to one that counts from 0. Positive indices count from 1; negative ones
+// count backwards from the last of the `defined` entries so far, which has the index -1.
 std::optional<Index> resolve_obj_index(std::string_view word, std::size_t defined);
 
 // Processes the lines of an OBJ that concern textures, and determines a colour per vertex.

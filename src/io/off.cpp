@@ -62,8 +62,8 @@ class OffReader {
     return Words();
   }
 
-  // Returns the next word of this line or, because the format is free-form, of a later line. If the word is
-  // in a later line, sets is_wrapped_.
+  // Returns the next word of `words` or, because the format is free-form, of a later line. If the word is in
+  // a later line, sets is_wrapped_.
   std::string_view next_word(Words& words) {
     std::string_view word = words.next();
     while (word.empty() && !is_at_end_) {
@@ -74,8 +74,8 @@ class OffReader {
     return word;
   }
 
-  // Further words in a line belong to properties that are not read. But they are an error if the row
-  // continues from an earlier line.
+  // Further words in a line belong to properties that are not read. They are ignored, unless the row began in
+  // an earlier line; then they are an error.
   Result<void> end_row(Words words) {
     const std::string_view word = words.next();
     const bool is_bad = std::exchange(is_wrapped_, false) && !word.empty();

@@ -96,7 +96,7 @@ struct PlyContent {
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
 
-// Returns the layout of vertices without lists as records; their offset is 0.
+// Returns the layout of the rows of vertices without lists. The offset of the first row is 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
 // Returns a colour's column: its type, and its scale to [0, 255]. The caller sets its offset.

@@ -20,8 +20,8 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& r
   return {};
 }
 
-// Reads a body through `rows`, which are ascii or binary. Faces that precede the vertices are read after
-// them.
+// Reads a body through `rows`, which are ascii or binary. Faces that precede the vertices are read after the
+// vertices.
 template <typename Rows>
 Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
   std::vector<std::pair<const PlyElement*, Rows>> early_faces;

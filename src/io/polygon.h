@@ -20,7 +20,7 @@ namespace relievo::io {
 std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners);
 
 // Returns whether the fan from the first corner covers the polygon. If so, triangulate() returns this fan; if
-// not, triangulate() may still return it when it finds no triangulation.
+// not, triangulate() may still return the fan, when it finds no triangulation.
 bool fan_covers(std::span<const Vec3> corners);
 
 // Calls add(a, b, c) for each triangle of triangulate(). Allocates nothing if a fan covers the polygon.

@@ -42,8 +42,8 @@ void smooth(io::RawCloud& raw, bool keeps_blur) {
 // to the model.
 constexpr std::size_t most_at_origin = 16;
 
-// Returns the number of points at 0, 0, 0 that count as not measured. It is 0 for a mesh, for at most 16
-// points there, and if all points are there.
+// Returns the number of points at 0, 0, 0 that count as not measured. Returns 0 for a mesh, if at most 16
+// points are at 0, 0, 0, and if all finite points are there.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
@@ -54,9 +54,9 @@ std::size_t count_unmeasured(const CloudFile& file) {
   return zeros < finite ? zeros : 0;
 }
 
-// Removes points that are not finite or not measured. If some points have no normal, removes these points if
-// they are a minority, otherwise all normals. Losing few points is better than losing all normals, but losing
-// most points is worse.
+// Removes points that are not finite or not measured. In a cloud with normals, removes points without a
+// normal, too, if they are a minority; otherwise removes all normals. Losing few points is better than losing
+// all normals, but losing most points is worse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
   file.unmeasured_points = count_unmeasured(file);

@@ -1,4 +1,4 @@
-// Reads textures of meshes, and samples them at the vertices to colour these.
+// Reads textures of meshes, and samples them to colour the vertices.
 #pragma once
 
 #include <array>

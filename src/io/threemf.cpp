@@ -50,8 +50,8 @@ class ThreeMfColours {
 
   bool is_empty() const { return groups_.empty(); }
 
-  // Returns the colour of a corner, 0 to 2, of a triangle in an object; nothing if its colour is missing or
-  // unknown.
+  // Returns the colour of corner `corner` (0 to 2) of a triangle; nothing if the colour is missing or
+  // unknown. The triangle is a part of `object`.
   std::optional<Colour> of_corner(const XmlElement& object, const XmlElement& triangle,
                                   std::size_t corner) const {
     // A triangle without colour has the colour of its object. A corner without colour has the colour of the

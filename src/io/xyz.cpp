@@ -46,8 +46,8 @@ class XyzReader {
     if (layout_.has_colours) colours_.reserve(points);
   }
 
-  // Returns whether the line is the number of points of another scan. Such a line may follow when the last
-  // scan has as many points as promised. If the line is such a number, begins that scan.
+  // Begins another scan and returns true if the line is the number of points of that scan. Such a line may
+  // follow when the last scan has as many points as promised.
   bool begins_block(std::string_view line) {
     if (!layout_.promised_points || promised_ != cloud_.size()) return false;
     const auto points = parse_integer(line);
@@ -299,8 +299,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
   if (layout.columns < 4 && !has_name) return;
   const std::string_view data = source.bytes.substr(layout.data_offset);
   const auto rows = sample_rows(data, layout);
-  // The first column has names only if no row begins with a number. Otherwise a word in it stands for a
-  // missing coordinate.
+  // The first column has names only if no row begins with a number. If some row does, a word in the first
+  // column stands for a missing coordinate.
   const bool is_named =
       has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
   layout.has_scan_positions = !has_name && has_scan_positions(rows, layout.columns);

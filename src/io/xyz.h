@@ -70,8 +70,8 @@ void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 // admits vectors with two decimals, whose length has an error of up to 0.01.
 bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t column);
 
-// Returns whether three columns are integers from 0 to 255, some of them above the largest class of points,
-// or fractions from 0 to 1.
+// Returns whether three columns are colours: integers from 0 to 255 that are not all classes of points (0 to
+// 31), or fractions from 0 to 1.
 bool are_colours(const std::vector<std::vector<double>>& rows, std::size_t column);
 
 // Finds the columns of normals and colours by their values in the rows. The columns `first` to first + 2 are

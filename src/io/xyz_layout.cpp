@@ -90,8 +90,8 @@ std::string without_quoted(std::string_view line) {
   return plain;
 }
 
-// Returns whether the commas cannot all be separators, as in "1,5 2,5". Commas as in "1, 2,5" are decimal
-// commas only if no number has a decimal point.
+// Returns whether the line has decimal commas. Not all commas can be separators in "1,5 2,5". In "1, 2,5" the
+// second comma is a decimal comma, but only if no number of the line has a decimal point.
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');

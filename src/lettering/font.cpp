@@ -38,7 +38,8 @@ constexpr std::size_t most_characters = 1000, most_font_bytes = 64 << 20, most_o
 constexpr double farthest = 1e5;  // largest distance from the start of the line, in heights of capitals
 
 // The least plausible height of capitals, and the height that replaces an implausible one, as fractions of
-// the em. They also apply to the height of lower-case letters, as fractions of the height of capitals.
+// the em. Both numbers also apply to the height of lower-case letters, as fractions of the height of
+// capitals.
 constexpr double least_capital = .1, usual_capital = .7;
 
 template <auto destroy>

@@ -67,8 +67,9 @@ struct ShapedLine {
   double advance = 0, x_height = 0;
 };
 
-// Returns the line of text in the ornament's font, or in the embedded font if it has none. Curves become
-// polygons that deviate by at most `tolerance`, in heights of capitals. Errors: those of check_text().
+// Returns the line of text in the ornament's font, or in the embedded font if the ornament has no font.
+// Curves become polygons that deviate by at most `tolerance`, in heights of capitals. Errors: those of
+// check_text().
 Result<ShapedLine> shape_line(const Ornament& ornament, double tolerance);
 
 }  // namespace relievo

@@ -10,8 +10,8 @@ namespace relievo::paper {
 
 // The coefficients of (6), for height and saturation, and two constants.
 struct Coefficients {
-  // u = alpha^-beta replaces alpha in (6). It gives the same weights; with beta = 0, where alpha has no
-  // effect, it can still give every height. Infinity corresponds to alpha = 0.
+  // u = alpha^-beta replaces alpha in (6) and gives the same weights. If beta is 0, alpha has no effect, but
+  // u can still give every height. Infinity corresponds to alpha = 0.
   double u = 1;
   double beta = .01;
   double max_slope = 4;       // largest slope of an expected normal; 4 is 76 degrees

@@ -15,8 +15,9 @@ namespace relievo::paper {
 // no curvature exceeds 1e-6 / rho, the surface is flat up to the rounding of normals, and all curvatures are set to 0.
 // After cancellation, returns early with meaningless values.
 //
-// If normals point outwards, the printed (3) is -2 times the mean curvature (see docs/decisions/paper.md). So this
-// function divides the result of (3) by -2. Otherwise the second equation (9), which adds detail, would flatten ridges.
+// If normals point outwards, the printed (3) is -2 times the mean curvature (see docs/decisions/paper.md). So
+// this function divides the result of (3) by -2. Without this division, the second equation (9), which adds
+// detail, would flatten ridges.
 std::vector<double> mean_curvature(const Cloud& cloud, double rho, std::span<const Index> queries,
                                    const Progress* progress = nullptr);
 

@@ -12,11 +12,12 @@ struct HeightToOrder {
   bool is_met = false;  // whether the height is within 1 % of the requested one
 };
 
-// Tries beta = 1e-5, 2e-5, 4e-5 and so on, up to 100. Returns the first beta for which an alpha gives a height within
-// 1 % of `wanted`, and this alpha. If there is none, `is_met` is false. `height_at(alpha, beta)` makes the relief and
-// returns its height, which decreases with alpha; the last call is for the returned alpha and beta. For each beta,
-// bisection finds the first alpha of 0.001, 0.002, 0.004 and so on at which the height is below `wanted`. Then
-// bisection between alpha / 2 and alpha finds the result.
+// Tries beta = 1e-5, 2e-5, 4e-5 and so on, up to 100. Returns the first beta for which an alpha gives a
+// height within 1 % of `wanted`, and this alpha. If no beta succeeds, `is_met` is false.
+// `height_at(alpha, beta)` makes the relief and returns its height, which decreases with alpha; the last call
+// is for the returned alpha and beta. For each beta, bisection finds the first alpha of 0.001, 0.002, 0.004
+// and so on at which the height is below `wanted`. Then bisection between alpha / 2 and alpha finds the
+// result.
 //
 // The algorithm as printed has mistakes. Line 4 lacks an absolute value, and its 0.001 is a length without a unit.
 // When the height first falls below `wanted`, line 12 leaves alpha as it is, so that the next height is the same and

@@ -21,9 +21,9 @@ class NormalEquations {
  public:
   using Workspace = solver::Cholesky::Workspace;
 
-  // Prepares the system for points in the view plane. The heights of a set of points that are connected as
-  // neighbours, but include no boundary point, would be undetermined. So the point of the set with the lowest index
-  // is treated as a boundary point. Errors: those of solver::Cholesky::factor().
+  // Prepares the system for points in the view plane. If a set of points that are connected as neighbours
+  // includes no boundary point, the heights of the set would be undetermined. So the point of this set with
+  // the lowest index is treated as a boundary point. Errors: those of solver::Cholesky::factor().
   static Result<NormalEquations> build(std::span<const Vec2> points,
                                        std::span<const std::uint8_t> is_boundary);
 

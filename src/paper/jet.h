@@ -42,8 +42,8 @@ inline Jet chain(const Derivatives& f, const Jet& a) {
 
 using JetVector = std::array<Jet, 3>;
 
-// `offset` is the position of a point relative to a fixed point, and `n` a vector that depends on the point.
-// Returns the scalar product of both as a function of the point.
+// Returns the scalar product of `offset` and `n` as a function of a point. `offset` is the point's position
+// relative to a fixed point, and `n` is a vector that depends on the point.
 inline Jet dot(const Vec3& offset, const JetVector& n) {
   Jet sum;
   for (Eigen::Index i = 0; i < 3; ++i) {

@@ -17,9 +17,10 @@ inline float compression_ratio(float z, float z0, float faint) {
   return z * z0 / std::max(z0 * z0 + faint * faint, 1e-30F);
 }
 
-// Carries heights from the control points to all visible points by their compression ratio: the height divided by the
-// height without compression. A multilevel B-spline interpolates the ratio of the control points at all visible
-// points. There it is multiplied by their heights without compression.
+// Carries heights from the control points to all visible points by their compression ratio: the height
+// divided by the height without compression. A multilevel B-spline interpolates the ratio of the control
+// points at all visible points. Then each visible point's ratio is multiplied by the point's height without
+// compression.
 class HeightMapping {
  public:
   // Scratch memory, so that carry() allocates nothing.

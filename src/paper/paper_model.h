@@ -11,8 +11,9 @@
 
 namespace relievo {
 
-// Solves the system (9), which is factored once. Its unknowns are the heights of all visible points, or those of the
-// control points, from which map() computes the others. Const calls may run concurrently if each has its own workspace.
+// Solves the system (9), which is factored once. The unknowns are the heights of all visible points, or only
+// those of the control points; then map() computes the heights of all visible points. Const calls may run
+// concurrently if each has its own workspace.
 class PaperModel {
  public:
   // Scratch memory, so that solve() and map() allocate nothing.
@@ -40,9 +41,10 @@ class PaperModel {
   void solve(const paper::Coefficients& coefficients, SolveWorkspace& workspace,
              std::span<float> control_heights) const;
 
-  // Writes the heights of all visible points, given those of the control points. Adds detail by the paper's second
-  // equation (9): z_p += gamma k_p h. Here h is the height without detail: the range of all z and 0. Then boundary
-  // points are set to 0, because (9) only brings them close to 0, and a plate must be closed.
+  // Writes the heights of all visible points, given those of the control points. Adds detail by the paper's
+  // second equation (9): z_p += gamma k_p h. Here h, the height without detail, is the size of the range that
+  // contains 0 and all z. Then boundary points are set to 0, because (9) only brings them close to 0, and a
+  // plate must be closed.
   void map(std::span<const float> control_heights, double gamma, MapWorkspace& workspace,
            std::span<float> heights) const;
 

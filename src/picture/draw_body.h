@@ -59,8 +59,8 @@ struct ScreenTransform {
   bool operator==(const ScreenTransform&) const = default;
 };
 
-// A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is what
-// remains to a sum of 1.
+// A point on a triangle, given by barycentric weights in units of 1/65535. The third weight is 1 minus the
+// sum of the other two.
 struct VisiblePoint {
   // The corners are stored with the point, because looking them up would make live pictures a third slower.
   Triangle corners = {no_index, no_index, no_index};
@@ -92,9 +92,8 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
 // Returns the height of a point above the ground, in mm.
 float height_mm(const DrawnBody& body, const VisiblePoint& seen);
 
-// Caches a visibility buffer as long as the buffer shows the same points. That is so if the body is a height
-// field that is seen from above, and neither the plate's size nor the transform has changed. Heights may
-// change.
+// Caches a visibility buffer. The buffer is used again if the body is a height field that is seen from above,
+// and neither the plate's size nor the transform has changed. Heights may have changed.
 class CachedVisibility {
  public:
   const VisibilityBuffer& get(const DrawnBody& body, const ScreenTransform& transform);

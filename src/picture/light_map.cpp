@@ -30,7 +30,7 @@ constexpr float lamp_width = .7F;
 constexpr float shadow_strength = .7F;
 
 // Length of the steps towards the lamp, in pixels. Longer steps miss narrow ridges; shorter steps find no
-// more ridges.
+// additional ridges.
 constexpr double step_px = 1.5;
 
 // Reduces the sky light where the surface is lower than the mean height within about `radius` pixels.
@@ -59,7 +59,7 @@ Ray ray_to(const HeightField& field, const Vec3f& to_lamp) {
 }
 
 // Returns the share of the lamp's light that reaches a pixel. The lamp is extended, so it can be partly
-// hidden. The ray is followed while the relief can still rise above it.
+// hidden. The ray is followed as long as the relief may still be higher than the ray.
 float lamp_share(const HeightField& field, int column, int row, const Ray& ray, float highest) {
   const float x = static_cast<float>(column) + .5F, y = static_cast<float>(row) + .5F;
   const auto width = static_cast<float>(field.z.width), height = static_cast<float>(field.z.height);

@@ -271,9 +271,9 @@ BentPoints::BentPoints(const Wrap& wrap, std::span<const Vec2> places) : wrap_(w
   });
 }
 
-// The normal is perpendicular to the derivatives of the relief's position with respect to x and y. Both derivatives are
-// multiplied by the z of the flat normal. That replaces the slopes of the flat relief by minus the x and y of this
-// normal, without a division.
+// The normal is perpendicular to the derivatives of the relief's position with respect to x and y. Both
+// derivatives are multiplied by the z of the flat normal. The product of this z and a slope of the flat
+// relief is minus the x or y of the flat normal, so no division is needed.
 Vec3f BentPoints::normal(std::size_t i, float height_mm, const Vec3f& flat) const {
   const Point& p = points_[i];
   const Vec3f by_x = flat.z() * (p.at_by_x + height_mm * p.out_by_x) - flat.x() * p.out;

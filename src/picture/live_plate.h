@@ -47,9 +47,9 @@ class LivePlate {
   // make_plate() and wrap_plate(), except the error that a plate would reach the wrap's axis.
   static Result<LivePlate> make(const Surface& surface, const PlateOptions& plate, double mm_per_unit);
 
-  // Returns whether the plate was made with these options. If the picture need not be exact, the height of the rim may
-  // differ. The plate then keeps the bevel of its own rim height; if the rim is a die's groove, it also keeps its own
-  // size.
+  // Returns whether the plate was made with these options. If the picture need not be exact, the height of
+  // the rim may differ. The plate then keeps the bevel of its own rim height; if the rim is a die's groove,
+  // the plate also keeps its own size.
   bool serves(const PlateOptions& plate, double mm_per_unit, bool is_exact) const;
 
   // Returns the body with the relief `shown` and a rim of height `rim_mm`. It is valid until the next call. Errors:
@@ -82,7 +82,7 @@ class LivePlate {
   double mm_per_unit_ = 1;
   std::vector<Triangle> triangles_;
   PlateParts parts_;
-  std::vector<Index> relief_;      // the plate's first points: those of the surface that it shows
+  std::vector<Index> relief_;      // indices of the surface's points that are the plate's first points
   std::vector<AddedPoint> added_;  // points of the relief that are not points of the surface
   std::vector<Vec2> places_;       // positions of the front's points, from the middle of the body, in mm
   std::vector<float> base_;        // heights of the base under the points of the front; empty for a plane

@@ -28,8 +28,8 @@ Mat3 rotation_of(const Camera& camera) {
 
 PlateParts parts_of_frames(const Solid& level, const Surface& surface) {
   PlateParts parts = plate_parts(level);
-  // A thin triangle on the hull may have been flipped together with a triangle of the ground. Then it has a
-  // corner of the plate as one of its corners.
+  // The edge between a thin triangle on the hull and a triangle of the ground may have been flipped. Then the
+  // thin triangle has a corner of the plate as one of its corners.
   const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
   for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
     if (surface.boundary.is_inside[t] && is_of_points(level.triangles[t])) parts.parts[t] = Part::relief;

@@ -15,7 +15,7 @@ namespace relievo {
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;
-  std::vector<Vec2> places;      // the surface's points, relative to `middle`, in its units
+  std::vector<Vec2> places;      // positions of the surface's points from `middle`, in the surface's units
   Vec2 half = Vec2::Zero();      // half the size of the points' box
   Vec2f middle = Vec2f::Zero();  // middle of the points' box
 };

@@ -189,7 +189,8 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       environment_(material == Material::plaster ? EnvironmentLight() : EnvironmentLight(to_lamp)) {}
 
-// Returns the light of lamp and sky on the point `lit`, reduced by its normal and its shadows.
+// Returns the light of lamp and sky that falls on the point `lit`, reduced according to the point's normal
+// and shadows.
 Light Shader::facing(const Lit& lit) const {
   return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
           (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};

@@ -57,8 +57,8 @@ class EnvironmentLight {
 
   explicit EnvironmentLight(const Vec3f& to_lamp);
 
-  // Returns the light from a direction. The direction is given as the x and y of a unit vector with positive
-  // z. If they are longer than a unit vector, returns the light from the nearest valid direction.
+  // Returns the light from a direction, which is given as the x and y of a unit vector with positive z. If
+  // the vector (x, y) is longer than 1, returns the light from the nearest valid direction.
   float operator()(const Vec2f& direction) const;
 
  private:

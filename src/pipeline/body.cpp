@@ -28,7 +28,7 @@ constexpr double rim_bevel = .3;
 // The limit for the slopes of simplified fronts, as a share of the largest allowed slope. It exceeds the
 // share of limit_draft(), 0.999, so that simplification has some freedom. It is below 1 because of rounding.
 constexpr double front_share = .9995;
-constexpr double ornament_share = .997;  // the same for walls of ornaments, whose corners are rounded
+constexpr double ornament_share = .997;  // the same limit for walls of ornaments, whose corners are rounded
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
 constexpr double rounded_up = 1.002;  // largest factor by which the polygon of a curved rim steepens bevels
 

@@ -92,11 +92,11 @@ struct FormedBody {
 };
 
 // Simplifies the front as the options ask, and returns the body that has it. Errors: those of
-// simplified_front() and make_body(); kind option if the solid needs more triangles than the limit for its
-// outline and walls alone.
+// simplified_front() and make_body(); kind option if the outline and the walls of the solid alone need more
+// triangles than the limit.
 Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& options, Progress* progress);
 
-// Returns, per point, whether it is on an edge of a tile. There the relief does not go down to the ground. A
+// Returns, per point, whether it is on an edge of a tile, where the relief does not go down to the ground. A
 // point is on such an edge if it is on a straight side of the surface's hull, and not at a hole.
 std::vector<std::uint8_t> tile_edges(const Surface& surface);
 

@@ -40,7 +40,7 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
 
 // Returns the distance between samples. The default is about a 700th of the width, because the eye cannot
 // resolve smaller distances when it sees the whole plate at arm's length. If the surface's sampling distance
-// is smaller, that is the default.
+// is smaller, the sampling distance is the default.
 Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700, most_samples = 10'000;
   const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;

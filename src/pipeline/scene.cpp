@@ -30,9 +30,9 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Returns `count` of the cloud's points. Point i of the result has the index f times the number of points,
-// where f is the fractional part of i times the golden ratio. Indices with equal steps could coincide with
-// the rows of a scanner.
+// Returns `count` of the cloud's n points. Point i of the result is the cloud's point with the index f * n,
+// rounded down, where f is the fractional part of i times the golden ratio. Indices with equal steps could
+// coincide with the rows of a scanner.
 Cloud some_of(const Cloud& cloud, std::size_t count) {
   constexpr double golden_ratio = .6180339887498949;
   Cloud some;

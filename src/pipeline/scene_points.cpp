@@ -33,9 +33,9 @@ struct Parts {
   std::vector<SampleNote> notes;
 };
 
-// Appends the values of a member with one value per point, such as colours or own heights, from one group of
-// points to those of another group. If only one of the groups has values, the points of the other group get
-// `usual`.
+// Appends the values of a member of `from` to those of the same member of `to`. The member has one value per
+// point, such as a colour or an own height. If the member of only one of the two objects has values, the
+// points of the other object get the value `usual`.
 template <typename T, typename Value>
 void append_member(T& to, const T& from, std::vector<Value> T::*member, const Value& usual) {
   if ((to.*member).empty() && (from.*member).empty()) return;

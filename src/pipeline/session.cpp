@@ -76,7 +76,7 @@ struct Shared {
     if (!model) forget_points();
   }
 
-  // Frees the points of another scan, unless the model is of them.
+  // Frees the measured points when another scan is opened, unless the model is made of these points.
   void forget_other_scan() {
     if (!model || measured.of != of_model.lock()) forget_points();
   }

@@ -17,8 +17,9 @@ std::vector<Vec3f> stored_points(const Solid& solid);
 // higher one.
 std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid);
 
-// Separates each pair of find_coincident_points(). Moves its second point towards `middle_z`, by the smallest number of
-// steps of single precision that separates the pair. A move towards the middle cannot enlarge the solid's box.
+// Separates each pair of find_coincident_points(). Moves the pair's second point towards `middle_z`, by the
+// smallest number of steps of single precision that separates the pair. A move towards the middle cannot
+// enlarge the solid's box.
 void separate_coincident(Solid& solid, double middle_z);
 
 }  // namespace relievo

@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// Edges up to this length are not split. It is finer than any tool, and in single precision it is several
-// units in the last place of coordinates of 10 m.
+// Edges up to this length are not split. The length is smaller than any tool. It is several units in the last
+// place of a single-precision coordinate of 10 m.
 constexpr double shortest_mm = 4e-3;
 constexpr int most_refinements = 60;  // each refinement halves edges, so plates need about 30 at most
 constexpr std::size_t edges_per_task = 512;
@@ -44,8 +44,8 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
 }
 
 // Refines in rounds. Each round samples the new triangles, adds all points that they need, and splits the
-// triangles. Triangles are examined separately. But both triangles of an edge sample it at the same points,
-// so they split it at the same point. That avoids T-junctions.
+// triangles. Triangles are examined separately. But both triangles of an edge sample the edge at the same
+// points, and therefore split it at the same point. So there are no T-junctions.
 class Refiner {
  public:
   Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)

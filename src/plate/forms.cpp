@@ -17,10 +17,10 @@
 namespace relievo {
 namespace {
 
-// The plate is thinnest where the brightness is at least its quantile `bright_share`; otherwise a few
-// highlights would leave everything else dark. The plate is thickest where the brightness is at most its
-// quantile `dark_share`. This second brightness is kept between `least_dark_of_bright` and `dark_of_bright`
-// times the first one.
+// The plate is thinnest where the brightness is at least its quantile `bright_share`; if only the brightest
+// point counted, a few highlights would leave everything else dark. The plate is thickest where the
+// brightness is at most its quantile `dark_share`. This second brightness is kept between
+// `least_dark_of_bright` and `dark_of_bright` times the first one.
 constexpr double bright_share = .98, dark_share = .1;
 constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 

@@ -129,10 +129,10 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Combines the relief's triangles with the ground's triangles of the triangulation, if their edges match. If
-// they do not match and the relief is Delaunay, points on a common circle were triangulated differently;
-// then the whole triangulation is returned. Returns nothing if they do not match and the relief is not
-// Delaunay. Also returns nothing if a triangle connects a new point with a point above the ground.
+// Combines the relief's triangles with those triangles of the triangulation that are ground, if the edges of
+// both match. If these edges do not match although the relief is Delaunay, points on a common circle were
+// triangulated differently; then the whole triangulation is returned. Returns nothing if the edges do not
+// match and the relief is not Delaunay, or if a triangle connects a new point with a point above the ground.
 std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
                              const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();

@@ -26,9 +26,9 @@ struct Distance {
   double at(double size) const { return offset + size * growth; }
 };
 
-// One side of a convex polygon that approximates the curve of an outline. Both grow with the size of the
-// outline. `line` is the line of the side. `tangent` is the parallel tangent of the curve. The two coincide
-// where the curve is straight.
+// One side of a convex polygon that approximates the curve of an outline. Polygon and curve grow with the
+// size of the outline. `line` is the line of the side. `tangent` is the parallel tangent of the curve. The
+// two coincide where the curve is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
   Distance tangent = {}, line = tangent;
@@ -66,9 +66,9 @@ CircleSides circle_sides(double radius) {
   return sides;
 }
 
-// Considers circles around the points. Their centres are midway between the leftmost and the rightmost point;
-// other centres could be visibly off this middle. Returns the centre of the smallest such circle. The circles
-// are measured in coordinates divided by `scale`, so that they can stand for ellipses.
+// Returns the centre of the smallest circle around the points whose centre is midway between the leftmost and
+// the rightmost point; other centres could be visibly off this middle. Distances are measured in coordinates
+// divided by `scale`, so that the circle can stand for an ellipse.
 Vec2 round_centre(Points points, const Vec2& scale) {
   const Frame frame = frame_around(points);
   const auto farthest = [&](double y) {
@@ -138,8 +138,8 @@ double size_around(Points points, const Vec2& centre, const std::vector<Side>& s
 }
 
 std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
-  // Two arcs meet in one point if the straight side between them has no length. Corners nearer than
-  // this to the previous one are left out.
+  // Corners nearer than this length to the previous corner are left out. Two arcs meet in one point if the
+  // straight side between them has no length.
   constexpr double least_side_mm = 1e-4;
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {

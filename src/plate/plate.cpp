@@ -51,7 +51,8 @@ void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
     solid.triangles.push_back({bottom[0], bottom[i + 1], bottom[i]});
 }
 
-// Adds the bottom, which is a copy of the front's triangles, and the walls between both boundaries.
+// Adds the bottom, which is a copy of the front's triangles, and the walls from the boundary of the front to
+// that of the bottom.
 void close_body(Solid& solid) {
   const std::vector<Triangle> front = solid.triangles;
   const auto n = static_cast<Index>(solid.points.size());

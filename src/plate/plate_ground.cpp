@@ -63,9 +63,9 @@ IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double 
   return polygon;
 }
 
-// Merges the edges of both polygons by the angle of their outward normals. Each edge is connected to the
-// vertex of the other polygon that is farthest along the edge's normal. These triangles sweep the ring once,
-// so none overlap. Every triangle has an area, even where points are collinear or edges are parallel.
+// Merges the edges of both polygons by the angle of their outward normals. Each edge forms a triangle with
+// the vertex of the other polygon that is farthest along the edge's normal. These triangles sweep the ring
+// once, so none overlap. Every triangle has an area, even where points are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer) {
   begin_at_lowest(solid, inner);
   begin_at_lowest(solid, outer);

@@ -40,9 +40,10 @@ IndexPolygon add_polygon(Solid& solid, const std::vector<Vec2>& corners, double 
 // has an area, even where corners are collinear or edges are parallel.
 void add_ring(Solid& solid, IndexPolygon inner, IndexPolygon outer);
 
-// Returns the outward offset that turns a point on a polygon's side into a corner. The point is at `share` of the side.
-// With these offsets the points of a side lie on an arc. Its middle is 0.00001 mm outside a side of 100 mm. Without
-// them, collinear corners would give triangles without area, and an ambiguous hull of the Delaunay triangulation.
+// Returns the outward offset that turns a point on a polygon's side into a corner. The point is at `share` of
+// the side. With these offsets the points of a side lie on an arc. The middle of the arc is 0.00001 mm
+// outside a side of 100 mm. Without the offsets, collinear corners would give triangles without area, and an
+// ambiguous hull of the Delaunay triangulation.
 inline Vec2 convexity_offset(const Vec2& side, double share) {
   const double curvature = 8e-9;  // per mm
   return share * (1 - share) / 2 * curvature * side.norm() * Vec2(side.y(), -side.x());

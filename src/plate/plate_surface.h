@@ -40,9 +40,9 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
 Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Replaces the surface by the surface that the tool leaves, see close_by_tool(). Points that the tool reaches
-// are kept. The others are replaced by samples of the new surface. Samples are dense where it is steep; level
-// ground gets none. `edges` are the rim's edges in the surface's coordinates; points along them keep them
-// sharp. A surface without ground keeps its triangles, and only its points are lifted.
+// are kept. The others are replaced by samples of the new surface. Samples are dense where this surface is
+// steep; level ground gets none. `edges` are the rim's edges in the surface's coordinates; points along these
+// edges keep the rim sharp. A surface without ground keeps its triangles, and only its points are lifted.
 void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
 
 // Returns the area for ornaments on a plate of the given outline.

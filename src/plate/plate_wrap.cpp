@@ -115,7 +115,7 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance. The tolerance here is larger, because otherwise
+  // A simplified front deviates by its own tolerance. So the tolerance of refine() is larger here; otherwise
   // refine() would undo the simplification.
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);

@@ -53,9 +53,10 @@ class ToolHeights {
     return std::isnan(z) ? point.z() : z;
   }
 
-  // Returns how much material the tool leaves above a point. At the foot of a wall, interpolated heights lie above
-  // the surface even if the tool leaves nothing there; at its upper edge, the interpolated difference between the
-  // heights is too large. So the smaller of both counts.
+  // Returns how much material the tool leaves above a point: the smaller of two values. At the foot of a wall
+  // the first one is too large, because interpolated heights lie above the surface even if the tool leaves
+  // nothing there. At the upper edge of a wall the second one, the interpolated difference between the
+  // heights, is too large.
   double left_at(const Vec3& point) const {
     return std::min(height_at(point) - point.z(),
                     interpolated(point, [&](int x, int y) { return static_cast<double>(left(x, y)); }));

@@ -45,7 +45,7 @@ double half_angle(const Tool& tool) {
   return to_radians(tool.angle_deg / 2);
 }
 
-// Returns the largest radius of the tool within this height above its tip.
+// Returns the largest radius of the tool between its tip and the height `height_mm` above the tip.
 double radius_of(const Tool& tool, double height_mm) {
   if (tool.kind != Tool::Kind::v) return tool.diameter_mm / 2;
   return tool.tip_mm / 2 + height_mm * std::tan(half_angle(tool));
@@ -146,7 +146,7 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
       std::min(static_cast<int>(radius / step_mm + 1e-9), std::max(heights.width, heights.height) / 2);
   const Profile profile(reach, [&](int x, int y) {
     // Rounding could make the distance of a sample at the radius slightly larger than the radius. The factor
-    // prevents that.
+    // 1 - 1e-12 prevents that.
     const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);
     return distance > radius ? std::numeric_limits<float>::infinity()
                              : static_cast<float>(tool_profile(tool, distance));

@@ -46,7 +46,8 @@ Result<void> check_numbers(const WrapOptions& options) {
   return {};
 }
 
-// Returns the unit vector perpendicular to the axis that points to the axis's right. It is exact for 90 and 0 degrees.
+// Returns the unit vector that is perpendicular to the axis and points to its right. The result is exact for
+// 90 and 0 degrees.
 Vec2 across_of(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();

@@ -61,7 +61,7 @@ struct NormalMap {
 // the normals are (0, 0, 1).
 NormalMap normals_of(const Image<float>& z);
 
-// Images of the model's own normals and depths. Outside the relief normals are (0, 0, 1).
+// Images of the model's own normals and depths. Outside the relief, the normals are (0, 0, 1).
 struct ModelPicture {
   // The least distance of measured pixels from silhouette and jumps; also the radius of SSIM's window.
   static constexpr int safe_distance_px = 5;

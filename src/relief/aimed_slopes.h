@@ -48,7 +48,7 @@ Eigen::Vector2<Real> aimed_slope(const Eigen::Vector2<Real>& s, const Eigen::Vec
 
 // Changes the target slopes of a layered shape that has a light, so that their shading gets the given
 // contrast. `contrast` is the local_contrast() of the light. It is multiplied by the weight of the fine
-// layer, because the slopes of low reliefs have to stay small enough for the height.
+// layer. This weight is small in low reliefs, whose slopes have to stay small enough for the height.
 template <typename Real>
 void aim_slopes(const Shape& shape, std::span<const float> contrast, Real fine_weight,
                 std::span<Eigen::Vector2<Real>> slopes) {

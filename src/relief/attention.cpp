@@ -12,8 +12,8 @@ namespace relievo {
 namespace {
 
 // Standard deviations of the narrower Gaussian, as shares of the longer side. Lee et al. take 2 to 6 times
-// 0.3 % of a diagonal, that of the model's box. This diagonal is about 1.3 times as long as the longer side.
-// The wider Gaussian has twice the width.
+// 0.3 % of the diagonal of the model's box. This diagonal is about 1.3 times as long as the longer side. The
+// wider Gaussian has twice the width.
 constexpr std::array widths{.008, .012, .016, .02, .024};
 // Standard deviations, as shares of the longer side. `prior_width` is that of the prior, a Gaussian around the middle
 // of the view; `smoothing` is that of the last blur of the attention. Slopes that are scaled by a less smooth field

@@ -19,8 +19,8 @@
 namespace relievo {
 namespace {
 
-// The least-squares fit aims at this share of the limit, because it leaves a few triangles up to 0.4 % above
-// its target.
+// The least-squares fit aims at this share of the limit. At a few triangles its result exceeds the target, by
+// up to 0.4 %.
 constexpr double solved_share = .9945;
 
 double draft_deg_of(double slope) {
@@ -35,7 +35,7 @@ class Limiter {
     std::ranges::copy(triangles_inside(model.surface()), std::back_inserter(triangles_));
   }
 
-  // Returns whether the slopes of relief and base together stay below a share of the limit, kept_slope.
+  // Returns whether the slopes of relief and base together are at most the share kept_slope of the limit.
   bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_slope * options_.max_slope;
   }
@@ -108,9 +108,9 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches for the relief of a given height under the slope limit. The search varies x, with which the height
-// grows. If the method has a shape, x is the logarithm of u. For baselines, x is the logarithm of a scale
-// factor.
+// Searches for the relief of a given height under the slope limit. The search varies a number x, and the
+// height grows with x. If the method has a shape, x is the logarithm of u. For baselines, x is the logarithm
+// of a scale factor.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)

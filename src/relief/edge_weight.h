@@ -17,8 +17,8 @@ namespace relievo {
 // The largest weight, for edges opposite to very small angles. If an edge had a larger weight, single
 // precision would lose the other weights of its points.
 inline constexpr float largest_edge_weight = 1e3F;
-// The edge between two triangles on a common circle has weight 0. This least weight keeps the matrix positive
-// definite.
+// If two triangles have the same circumcircle, the edge between them would have weight 0. This least weight
+// keeps the matrix positive definite.
 inline constexpr float least_edge_weight = 1e-4F;
 
 // Returns half the cotangent of a triangle's angle at `apex`. This is the triangle's contribution to the

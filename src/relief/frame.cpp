@@ -120,8 +120,8 @@ struct OwnFrames {
     frame.times.after_solve_s += watch.seconds();
   }
 
-  // Makes the relief of `shape`, except for the last step, finish() of its style. This step does not
-  // change frame.height.
+  // Makes the relief of `shape`, except for the last step, which is finish() of the shape's style and does
+  // not change frame.height.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = made = shape;
     if (const HeightSystem* system = model.system())

@@ -26,7 +26,8 @@ Groups<Index> corners_inside(std::size_t points, const std::vector<Triangle>& tr
   });
 }
 
-// Returns the entries of each row. A copy of `add_row` for each task appends them: add_row(i, entries) those of row i.
+// Returns the entries of all rows. add_row(i, entries) appends the entries of row i; each task calls its own
+// copy of `add_row`.
 template <typename Entry, typename AddRow>
 Groups<Entry> rows_in_order(std::size_t rows, const AddRow& add_row) {
   Groups<Entry> all{std::vector<Index>(rows + 1), {}};
@@ -56,8 +57,9 @@ struct HeightEquations {
   Eigen::SparseMatrix<double> A;   // lower triangle of the weighted Laplacian; one row per unknown
   // The edges of each point, in ascending order of the points at their other ends. Every point also has an
   // edge to itself, so that vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half
-  // its weight times the vector to the point from the other end. It is 0 at boundary points, whose heights
-  // are 0. SlicedEllMatrix::divergence() computes the right-hand side from the coefficients.
+  // the edge's weight times the vector to the point from the other end. Coefficients are 0 at boundary
+  // points, whose heights are 0. SlicedEllMatrix::divergence() computes the right-hand side from the
+  // coefficients.
   Groups<MatrixEntry> edges;
 };
 

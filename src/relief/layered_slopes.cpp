@@ -45,8 +45,9 @@ constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
 // The slope at which faded_xy() halves the x and y of a normal. A slope of 12 corresponds to 85 degrees.
 constexpr double half_kept_slope = 12;
 
-// The u of a layer is multiplied by exp(-`attenuation` * detail * share), where the share is one of
-// these three. At the default detail of 0.04 the exponent is -share. See docs/method.md, "Slopes".
+// The u of a layer is multiplied by exp(-`attenuation` * detail * share), where the share is `middle_share`,
+// `coarse_share` or `broad_share`. At the default detail of 0.04 the exponent is -share. See docs/method.md,
+// "Slopes".
 constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
 }  // namespace

@@ -16,13 +16,13 @@ struct Surface;
 // The models of a scene that have a requested height of their own (Pose::height). Models with the same height
 // are treated as one.
 //
-// A harmonic surface continues the heights around a model behind it. The model's heights above that surface
-// are scaled until their maximum is the requested height or, if that is less, the depth of the model itself.
-// If it is the depth, a wall of constant height along the model's edge adds the rest of the requested height.
-// A level model, such as a letter, consists of its wall alone.
+// Behind each model, a harmonic surface continues the heights around the model. The model's heights above
+// this surface are scaled until their maximum is the requested height or, if the depth of the model itself is
+// less, this depth. In the second case, a wall of constant height along the model's edge adds the rest of the
+// requested height. A level model, such as a letter, consists of its wall alone.
 //
-// If the highest point of the relief changes, all other heights are scaled, so that the height of the relief
-// does not change. Otherwise the other heights keep their values.
+// If the highest height of the relief changes, the heights outside of these models are scaled until the
+// highest height is the same as before. Otherwise the heights outside of these models keep their values.
 class OwnHeights {
  public:
   // Scratch memory, so that frames allocate nothing.
@@ -53,8 +53,8 @@ class OwnHeights {
     std::vector<WeightedLink> links;  // edges with at least one end in `points`
     solver::Cholesky laplacian;
   };
-  // The highest height of a relief. `z` is a sum; its part `scaled` is proportional to the factor by which
-  // the heights outside of these models are multiplied.
+  // The highest height of a relief. `z` is this height. `scaled` is the part of `z` that is proportional to
+  // the factor by which the heights outside of these models are multiplied.
   struct Top {
     double z = 0, scaled = 0;
   };

@@ -57,9 +57,9 @@ class PaperRelief {
 };
 
 // Finds the shape with the requested height. If beta is free, Algorithm 1 of the paper searches alpha and
-// beta. If beta is fixed or Algorithm 1 fails, beta stays as requested and u is searched. `raise` makes the
-// relief of `shape` and returns its height. Returns whether the relative error of the height is at most 1 %
-// or `tolerance`; if not, the last relief is the highest one.
+// beta; it accepts relative errors of the height up to 1 %. If beta is fixed or Algorithm 1 fails, beta stays
+// as requested, and u is searched with the given tolerance. `raise` makes the relief of `shape` and returns
+// its height. Returns whether the height is reached; if not, the last relief is the highest one.
 template <typename Raise>
 bool search_paper_height(double height, double tolerance, Shape& shape, Raise&& raise) {
   if (shape.is_beta_free) {

@@ -208,8 +208,9 @@ class ReliefModel::Maker {
     input_.attention = attention_;
   }
 
-  // Returns the relief of the shape `asked` before finish(). The steps at depth jumps take the share Shape::steps of
-  // `height`. If no height is given, they take this share of the height that slopes and steps have together.
+  // Returns the relief of the shape `asked` before finish(). The steps at depth jumps take the share
+  // Shape::steps of `height`. If no height is given, the steps take this share of the height that slopes and
+  // steps have together.
   Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, asked};
     relief.heights = model_.state_->solve(relief.shape, input_);
@@ -287,8 +288,8 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
   // A relief that is too high can be scaled down. So every height below the one in this error can be made.
   if (!is_met && relief.height < height) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
-  // The search ends within a relative error of 10^-5 of the requested height, or above it. Scaling
-  // makes the height exact.
+  // The search ends at a height within a relative error of 10^-5 of the requested height, or at a greater
+  // height. Scaling makes the height exact.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;
   return relief;

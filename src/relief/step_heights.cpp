@@ -112,8 +112,9 @@ class MeansBesideWalls {
   std::vector<Place> means_;
 };
 
-// Returns the least-squares solution of equation (9) for given height differences. Across each of the given edges, the
-// height of b should exceed that of a by difference(a, b). Across all other edges, both heights should be equal.
+// Returns the least-squares solution of equation (9) for given height differences. Across each of the given
+// edges, the height of b should exceed that of a by difference(a, b). Across every other edge, the heights of
+// the two ends should be equal.
 template <typename Difference>
 StepHeights solve_steps(const Boundary& boundary, std::span<const WeightedLink> edges,
                         const HeightSystem& system, Difference difference) {

@@ -64,7 +64,8 @@ void add_steps(const StepHeights& steps, double share, std::optional<double> hei
 }
 
 // Prepares a shape for a search with step_share(), for a height that slopes alone do not reach. Uncompressed
-// slopes need no height correction, so it is turned off; otherwise level parts would not stay level.
+// slopes need no height correction. The correction is turned off, because level parts would not stay level
+// with it.
 inline void keep_slopes(Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   shape.compression.u = infinity;

@@ -160,9 +160,10 @@ StrokePoints points_in_lasso(const Surface& surface, const SeenLasso& lasso, dou
   return {std::move(inside), std::move(distances)};
 }
 
-// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side. The rate is the angle
-// between the normals of neighbouring points over their distance, as a root mean square. The factor sqrt(2) makes it
-// the rate across a crease, because a crease turns in one direction only. The normals are blurred to remove noise.
+// Returns how fast the surface turns at each point, in degrees per 1 % of the longer side. The rate is the
+// angle between the normals of neighbouring points over their distance, as a root mean square. The factor
+// sqrt(2) turns this mean into the rate across a crease, because a crease turns in one direction only. The
+// normals are blurred to remove noise.
 std::vector<float> turning_of(const Surface& surface) {
   constexpr double width = .008, least_width_rho = 1.5;
   const double side = surface.longer_side();

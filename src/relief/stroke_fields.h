@@ -95,9 +95,10 @@ struct InFront {
   Real height;  // the height of the relief
 };
 
-// Raises the heights z under a stroke by their weights times r (1 - z / height). So nothing exceeds the height, and
-// higher points stay higher. r is the least value with which all crossings have their step. It is at most the height,
-// so points near the top may get less than their step. Instantiated for float and double.
+// Raises the heights z under a stroke by their weights times r (1 - z / height). So nothing exceeds the
+// height, and higher points stay higher. r is the least value with which each crossing rises by at least
+// InFront::step. But r is at most the height, so crossings near the top may rise less. Instantiated for float
+// and double.
 template <typename Real>
 void bring_forward(const InFront<Real>& wanted, const StrokeMask& mask, std::span<Real> z);
 
@@ -175,13 +176,15 @@ struct StrokePoints {
 // A line consists of points whose distance from it, in space, is less than the radius. They must connect to
 // points beside the line without crossing a depth jump. The distances in the result are those from the line.
 //
-// A lasso consists of the points that its closed line encloses when seen along the lasso's direction. Their normals
-// face the viewer who drew it, and they lie at most half of the lasso's size behind its deepest corner. So a lasso
-// never changes parts that were hidden behind it when it was drawn, even if another view shows them.
+// A lasso consists of the points that its closed line encloses when seen along the lasso's direction. Their
+// normals face the viewer who drew the lasso, and they lie at most half of the lasso's size behind its
+// deepest corner. So a lasso never changes parts that were hidden behind it when it was drawn, even if
+// another view shows them.
 //
-// A region consists of the points that can be reached along edges from the point nearest to its own point. Edges across
-// depth jumps, and points at which the surface turns by more than the tolerance, are not passed. In lassos and regions,
-// the distance is the radius minus the distance from the edge, at least 0.
+// A region consists of the points that can be reached along edges from the point nearest to the stroke's
+// point. Edges across depth jumps, and points at which the surface turns by more than the tolerance, are not
+// passed. In lassos and regions, the distance is the radius minus the distance from the edge of the area, at
+// least 0.
 StrokePoints points_of(const Surface& surface, const Stroke& stroke);
 
 }  // namespace relievo

@@ -183,8 +183,8 @@ double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& c
     return block.lines;
   };
   const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
-  // The lines are distributed over three times the cross-section of all cells. This area, divided by the
-  // number of lines, is the area of the surface per point.
+  // Lines along three axes are distributed over the cross-sections of all cells. The total area of these
+  // cross-sections, divided by the number of lines, is the area of the surface per point.
   const double share =
       3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
   return std::sqrt(share);

@@ -77,8 +77,8 @@ double face(const Vec3& p) {
   return d;
 }
 
-// A wreath of leaves around the face. The leaves start on the ellipse of the face, scaled by `radius`, from
-// the crown of the head (0) down to the chin (1).
+// A wreath of leaves around the face. The leaves start on the ellipse of the face, scaled by `radius`. In
+// grow(), `step` is 0 at the crown of the head and 1 at the chin.
 struct Wreath {
   int leaves = 0;
   bool is_staggered = false;

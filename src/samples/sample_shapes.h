@@ -52,8 +52,8 @@ inline double clamp01(double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-// Returns 0 below `from`, 1 above `to`, and a smooth cubic in between. If `from` is above `to`, it falls from
-// 1 to 0 instead.
+// Returns 0 below `from`, 1 above `to`, and a smooth cubic in between. If `from` is above `to`, the result
+// falls from 1 to 0 instead.
 inline double ramp(double from, double to, double x) {
   const double t = clamp01((x - from) / (to - from));
   return t * t * (3 - 2 * t);

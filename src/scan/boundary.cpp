@@ -13,8 +13,8 @@
 namespace relievo {
 namespace {
 
-// If the empty circle of a triangle has a radius of more than 3 rho (rho is the sampling distance), the triangle
-// spans a gap and is outside the relief. Smaller circles are due to sampling.
+// If the empty circle (the circumcircle) of a triangle has a radius of more than 3 rho (rho is the sampling
+// distance), the triangle spans a gap and is outside the relief. Smaller circles are due to sampling.
 constexpr double gap = 3;
 
 // Returns the unit for the radius of a triangle's empty circle: rho or, if all three corners are sparse, the smallest

@@ -14,8 +14,8 @@
 namespace relievo {
 
 struct CoarseVisibility {
-  // The share of cells whose front point has a normal that faces the viewer. Front points seen nearly edge-on are not
-  // counted; if all are seen so, the share is 0.5.
+  // The share of cells whose front point has a normal that faces the viewer. Front points seen nearly edge-on
+  // are not counted; if no point is counted, the share is 0.5.
   double facing_share = .5;
   // The sum of the differences between the normals of neighbouring cells, except across depth jumps.
   double normal_variation = 0;
@@ -65,9 +65,10 @@ struct Side {
 
 // Returns the side of the scan if a single view shows everything that was scanned; nothing if the cloud has several
 // layers from every direction.
-// - The view is along the direction of the scan or, if an axis of the file is close to that direction, along the axis.
-// It never shows the hollow back. The back is recognised by the signs of the normals. If they are unknown, it is
-// recognised by its shape, and by whether a camera at the file's origin could have seen the cloud.
+// - The view is along the direction of the scan or, if an axis of the file is close to that direction, along
+// the axis. It never shows the hollow back. The back is recognised by the signs of the normals. If the signs
+// are unknown, the back is recognised by its shape, and by whether a camera at the file's origin could have
+// seen the cloud.
 // - Up is Y, or Z in views along Y. In files of cameras that look along +Z, up is -Y. If the outline has a broad
 // straight foot on another side, that side is down.
 // The cloud must have normals and no outliers.

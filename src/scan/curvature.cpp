@@ -42,8 +42,8 @@ RELIEVO_INLINE Vec3 mean_normal(std::span<const FourNeighbours> neighbours) {
 }
 
 // Sums of w a b^T over the neighbours of a point. w is the weight of a neighbour. a = (1, u, v), where u and
-// v are its coordinates in the tangent plane. In `moments`, b is equal to a. In `products`, b has the two
-// components of the neighbour's normal in the tangent plane.
+// v are the neighbour's coordinates in the tangent plane. In `moments`, b is equal to a. In `products`, b has
+// the two components of the neighbour's normal in the tangent plane.
 struct TangentSums {
   Mat3 moments;
   Eigen::Matrix<double, 3, 2> products;

@@ -36,9 +36,9 @@ class MeasuredCloud {
   const Cloud& cloud() const { return scan_->cloud; }
 
   // Returns the cloud, without colours, after the noise was removed at all points that a view from the
-  // direction `towards_viewer` may show. If this is 0, the noise was removed at all points. Changed points
-  // are kept for later views. If the normals are estimated, nothing is removed. May be called concurrently.
-  // The result is not usable once the progress is cancelled.
+  // direction `towards_viewer` may show. If `towards_viewer` is 0, the noise was removed at all points.
+  // Changed points are kept for later views. If the normals are estimated, nothing is removed. May be called
+  // concurrently. The result is not usable once the progress is cancelled.
   std::shared_ptr<const Scan> without_noise(const Vec3f& towards_viewer,
                                             const Progress* progress = nullptr) const;
 

@@ -189,9 +189,10 @@ class Sampler {
     }
   }
 
-  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. Goes from that
-  // pixel towards the other one, and adds the point at the last fine pixel that shows the mesh, unless this is next to
-  // the centre of the pixel. seen_at(i) returns the triangle that is visible i fine pixels after the first pixel.
+  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh. Goes
+  // from the centre of that pixel towards the other one, and adds the point at the last fine pixel that shows
+  // the mesh, unless this fine pixel is at the centre or next to it. seen_at(i) returns the triangle that is
+  // visible i fine pixels after the centre of the first pixel.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;

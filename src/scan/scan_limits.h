@@ -7,8 +7,9 @@ namespace relievo {
 struct ScanLimits {
   // Radius, in local spacings, of the disc with which a point hides points behind it.
   static constexpr double disc_radius = 2;
-  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that the surface would
-  // have gaps there. At an isolated point it is so large that the point would hide too large an area.
+  // Limits of the local spacing, in rho. Near coincident points the spacing is almost 0, so that the surface
+  // would have gaps there. At an isolated point the spacing is so large that the point would hide too large
+  // an area.
   static constexpr double least_spacing = .25, largest_spacing = 4;
   // A point is visible if it is at most this far behind the surface in front. The unit is the local spacing,
   // divided by n_z.

@@ -36,8 +36,9 @@ struct ComponentExtent {
   std::size_t high = 0;
 };
 
-// Removes remains of a plane: parts that are low above the plane compared with their size. They remain because depth
-// cameras bend tables, and boards have ridges. Also removes debris: parts that are much smaller than the largest one.
+// Removes remains of a plane: parts that rise little above the plane compared with their size. Such parts
+// remain because depth cameras bend tables, and because boards have ridges. Also removes debris: parts that
+// are much smaller than the largest part.
 void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                          std::vector<Index>& visible) {
   // A point is high if its height above the plane exceeds `low` tolerances of the plane, and the share `flat` of the
@@ -75,7 +76,7 @@ void drop_low_components(const SupportPlane& plane, const Cloud& cloud, const Sp
   if (!rest.empty()) visible = std::move(rest);
 }
 
-// Removes from the shown points those of the plane, parts that are low above the plane, and debris. Also
+// Removes from the shown points those of the plane, parts that rise little above the plane, and debris. Also
 // removes outlines in the plane from the cloud.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown) {

@@ -24,8 +24,8 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   width_ = static_cast<std::size_t>(count(0));
   parallel_for(points.size(), [&](std::size_t i) {
     // A margin of one cell before the first one provides space for neighbours. So 1 is added to a cell's
-    // number, after this was rounded down. If 1 were added before this, the sum could be rounded up to the
-    // next whole number.
+    // number after the number was rounded down. If 1 were added first, the floating-point sum could be
+    // rounded up to the next whole number.
     const Vec3 from_corner = (points[i] - box.min) / side;
     const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
     const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());

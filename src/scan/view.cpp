@@ -44,8 +44,8 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up) {
     return option_error("up", "expected a direction that is not zero and finite");
   const Vec3 z = towards_viewer / length;
   Vec3 x = up.normalized().cross(z);
-  // If `up` is parallel to z, the cross product is 0. Then the axis z or y takes the place of `up`; at least one of
-  // them is not parallel to it.
+  // If `up` is parallel to z, the cross product is 0. Then the model's Z axis takes the place of `up` or, if
+  // z is parallel to this axis, the Y axis.
   for (const Vec3& other : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY())})
     if (x.norm() < 1e-6) x = other.cross(z);
   x.normalize();

@@ -18,8 +18,8 @@ Vector laplacian(const BoundedFit& fit, const Vector& x) {
   return fit.A.selfadjointView<Eigen::Lower>() * x;
 }
 
-// H is the Hessian of the energy. Returns H x if `misfit` is A x, and the gradient of the energy if `misfit`
-// is A x - load.
+// Returns H x if `misfit` is A x, where H is the Hessian of the energy. Returns the gradient of the energy if
+// `misfit` is A x - load.
 Vector hessian(const BoundedFit& fit, const Vector& misfit) {
   return is_plate(fit) ? laplacian(fit, misfit.cwiseQuotient(fit.mass)) : misfit;
 }
@@ -138,7 +138,7 @@ class InteriorPoint {
   Vector x_, below_, above_, g_, lower_, upper_;
   double energy_ = 0;
   // Each bound has a product: the distance of x from the bound, times the bound's multiplier. The next step
-  // aims at the same product at all bounds. It is this share of the present mean product.
+  // aims at products that all equal `centring_` times the present mean product.
   double centring_ = .2;
 };
 

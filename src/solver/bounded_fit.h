@@ -34,8 +34,8 @@ struct BoundedFitResult {
 };
 
 // Minimises the energy. Stops when the gap is at most `tolerance` times the larger of |E(x)| and E(0), or
-// after 100 steps. Errors: those of Cholesky::factor(). A tolerance below the level of rounding errors leads
-// to them, too.
+// after 100 steps. Errors: those of Cholesky::factor(), which also occur if the tolerance is below the level
+// of rounding errors.
 Result<BoundedFitResult> minimise(const BoundedFit& fit, double tolerance);
 
 }  // namespace relievo::solver

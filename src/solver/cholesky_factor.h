@@ -46,7 +46,7 @@ std::size_t panel_floats(Index width, Index below);
 // the number of threads.
 //
 // Each task has a work vector with one number per column of its own, then one per boundary row. A boundary
-// row is a row of the task's supernodes that is a column of another task, an ancestor. A task writes only to
+// row is a row of the task's supernodes that is a column of an ancestor of the task. A task writes only to
 // its own work vector. In its boundary rows it leaves amounts, which the parent task adds to the parent's
 // work vector. So results do not depend on the number of threads.
 struct Task {
@@ -74,8 +74,8 @@ struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};
   std::vector<Index> to;
-  // Each entry is value + rest; together they have 48 bits. `rest` is the rounding error of `value`. It is
-  // empty if all entries are exact.
+  // Each entry is value + rest; together they have 48 bits. `rest` is the rounding error of `value`. The
+  // vector `rest` is empty if all entries are exact.
   std::vector<float> value;
   std::vector<float> rest;
 

@@ -206,12 +206,13 @@ class Multifrontal::Subtree {
     pop();
   }
 
-  // Adds the last contribution block of the stack to that of the task. The parent of its supernode is in another task.
+  // Adds the last contribution block of the stack, whose supernode has its parent in another task, to the
+  // task's contribution block.
   void add_to_boundary() {
     child_slots_.clear();
     for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
     // In a packed triangle, column c begins with its row c, so row r is r - c elements behind this beginning.
-    // The returned pointer is c elements before it, so that row r is r elements behind the pointer.
+    // The returned pointer is c elements before this beginning, so row r is r elements behind the pointer.
     add_packed(stack_.data() + pending_.back().begin, child_slots_, [&](Index c) {
       return contribution_.data() + std::size_t{c} * task_.boundary - packed_size(c);
     });

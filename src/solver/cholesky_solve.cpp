@@ -128,8 +128,8 @@ void subtract_product(const TaskMatrix& A, const Task& task, std::span<const dou
   }
 }
 
-// Returns a power of two close to the size of the residual. Dividing by it is exact, and keeps the
-// substitution within the range of single precision for every unit of the right-hand side.
+// Returns a power of two close to the size of the residual. A division by this power is exact. It keeps the
+// substitution within the range of single precision, whatever the unit of the right-hand side is.
 double unit_of(double largest) {
   return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1;
 }

@@ -10,7 +10,8 @@
 namespace relievo::solver {
 namespace {
 
-// Orders parts of a graph by minimum degree. Use one object for many parts, because it keeps its memory.
+// Orders parts of a graph by minimum degree. One object should order many parts, because it reuses its
+// memory.
 class MinimumDegree {
  public:
   // Both arguments must outlive the object. `slots` has an element per vertex of the graph; all elements are
@@ -20,8 +21,8 @@ class MinimumDegree {
 
   // Permutes the vertices of `piece` so that eliminating them in that order, before all others, causes little
   // fill. The next vertex is always one with the fewest remaining neighbours, including neighbours outside
-  // the piece. These degrees are exact and computed with bit sets. So time and memory grow at least with the
-  // square of the size, and the function is meant for up to a few hundred vertices.
+  // the piece. The numbers of neighbours are exact and computed with bit sets. So time and memory grow at
+  // least with the square of the piece's size, and the function is meant for up to a few hundred vertices.
   void order(std::span<Index> piece) {
     gather(piece);
     std::vector<Index> sequence;

@@ -45,8 +45,8 @@ ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector
     if (is_free(n)) couple(n, tie_of);
 }
 
-// Returns the ties of the coarser level. The ties in a coarse cell become one tie, at the mean of their positions
-// weighted by stiffness.
+// Returns the ties of the coarser level. All ties in a coarse cell become one tie, at the mean of the
+// positions of these ties, weighted by stiffness.
 std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   std::vector<Tie> coarse;
   std::vector<Index> tie_of(diagonal_.size(), no_index);

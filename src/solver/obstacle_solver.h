@@ -79,9 +79,9 @@ class ObstacleSolver {
   }
 
   // Writes the solution to b of workspace[0]. Reads the bounds from workspace[0]; `lowest` must be at most
-  // `highest`. If there are pairs, also reads the heights from workspace[0], otherwise load and hold.
-  // Overwrites the other levels. Values at fixed nodes are ignored, except that b and moment must be 0 there,
-  // as make_workspace() leaves them.
+  // `highest`. If there are pairs, also reads the heights from workspace[0]; if there are none, reads load
+  // and hold instead. Overwrites the other levels. Values at fixed nodes are ignored, except that b and
+  // moment must be 0 there, as make_workspace() leaves them.
   void solve(const Springs& springs, Workspace& workspace) const;
 
  private:

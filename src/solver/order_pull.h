@@ -46,8 +46,8 @@ class OrderPull {
  private:
   struct Direction {
     std::size_t offset;  // > 0; index of a pair's second node minus index of its first
-    // Per node: its wanted height above the second node of its pair, as a share of OrderLimits::height. It is 0 if the
-    // node is not the first one of a pair.
+    // Per node: if it is the first node of a pair, its wanted height above the second node, as a share of
+    // OrderLimits::height; otherwise 0.
     std::vector<float> wanted;
   };
   std::vector<Direction> directions_;

@@ -53,8 +53,8 @@ struct NodeSize {
   Index width = 0, below = 0;
 };
 
-// The largest number of rows of a supernode inside a subtree. It is limited because the products keep a copy
-// of the rows' elements of the work vector on the stack.
+// The largest number of rows of a supernode inside a subtree. It is limited because the products copy the
+// work vector's elements for all these rows to the stack.
 inline constexpr Index largest_subtree_rows = 2048;
 
 // Consecutive supernodes in postorder. Their columns are consecutive elements of `work`, the task's work

@@ -89,9 +89,9 @@ class TaskTreeBuilder {
     return task_of;
   }
 
-  // Sorts the tasks by their height in the tree, because threads take them in this order. Tasks of the same
-  // height do not depend on each other, so the many leaves keep all threads busy, and a task rarely waits for
-  // its children. The sort is stable, so the order is reproducible.
+  // Sorts the tasks by their height in the tree. Threads take tasks in this order. Tasks of the same height
+  // do not depend on each other, so the many leaves keep all threads busy, and a task rarely waits for its
+  // children. The sort is stable, so the order is reproducible.
   void sort_by_height() {
     const std::vector<Index> task_of = tasks_of_nodes();
     std::vector<Index> height(tasks_.size(), 0), sequence(tasks_.size());

@@ -79,8 +79,8 @@ class PathFlow {
     return order;
   }
 
-  // Returns the position, in v's list, of the first neighbour to try at the start of a walk. This is the leftmost turn:
-  // the next neighbour clockwise from the direction opposite to that of the band.
+  // Returns the position, in v's list, of the first neighbour to try at the start of a walk. This is the
+  // leftmost turn: the next neighbour clockwise from the direction opposite to `band_.direction`.
   Index first_turn(Index v) const {
     const auto nearby = graph_.neighbours(v);
     Index best = 0;

@@ -1,4 +1,4 @@
-// Tests ZIP archives such as web sites for models offer for download.
+// Tests ZIP archives of the kinds that web sites with models offer for download.
 #include "common/archive.h"
 
 #include "common/read_inputs.h"

@@ -143,7 +143,7 @@ TEST_F(BatchJobs, ReadTheFilesThatScenesProjectsAndOptionsName) {
             (Cells{path("p.relievo"), path("s.json"), path("torus.ply"), path("l.json"), path("d.svg")}));
 }
 
-// More points need more memory, and each model of a scene adds its own.
+// More points need more memory, and a scene needs the memory for the points of all its models.
 TEST_F(BatchJobs, NeedMemoryByTheirPoints) {
   write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}, {"file": "large.ply"}]})");
   const std::string header =

@@ -261,7 +261,8 @@ TEST_F(BatchProgram, TakesOptionsOfEachRow) {
   EXPECT_TRUE(read_all(folder_ / "out/scans.jsonl").contains("no number"));
 }
 
-// The lengths of all scans are in the unit of the flag, also where a row of the table has another unit.
+// The lengths on the command line are in the unit of --units, even for scans whose row in the table has
+// another unit.
 TEST_F(BatchProgram, AppliesTheUnitOnceAndToItsOwnLengths) {
   write_all(folder_ / "t.csv",
             "file,name,units,height\nscans/1.ply,a,,\nscans/1.ply,b,mm,\nscans/1.ply,c,in,1/4\n");

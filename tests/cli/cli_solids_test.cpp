@@ -72,8 +72,8 @@ TEST_F(CliSolids, MakesEveryForm) {
   EXPECT_NEAR((relief.volume() + die.volume()) / block, 1, 1e-4);
 }
 
-// The thickness of a photo's lithophane depends linearly on its values, from 0.8 mm at the brightest to 3.2
-// mm at the darkest.
+// The thickness of a lithophane depends linearly on the values of the photo, from 0.8 mm at the brightest
+// value to 3.2 mm at the darkest.
 TEST_F(CliSolids, MakesALithophaneOfAPhoto) {
   Image8 photo{60, 40, 3, {}};
   for (int i = 0; i < 60 * 40; ++i)

@@ -96,8 +96,8 @@ TEST_F(Files, NothingIsRemovedThatWasThere) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
 }
 
-// The test itself writes the files that a process leaves if it is killed just before it replaces an old
-// file by the finished new one.
+// The test itself writes the files that a process leaves if it is killed just before it replaces an old file
+// by the new file, which is then already complete.
 TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
   write_all(path("a.stl"), "old");
   if (!leave("a.stl.relievo-1-1") || !leave("b.stl.relievo-1-1")) GTEST_SKIP() << "no attributes here";

@@ -15,7 +15,8 @@ constexpr const char* drawing = R"(<svg viewBox="0 0 9 9"><path d="M0 0H9V9H0Z"/
 
 class InputFiles : public CliFolder {
  protected:
-  // Returns the names of the files in the test's folder that reading the file reads.
+  // Returns the names, relative to the test's folder, of all files that are read when the file `name` is
+  // read.
   std::vector<std::string> names_read_with(const std::string& name) const {
     std::vector<std::string> names;
     for (const InputFile& file : files_read_with((folder_ / name).string()))

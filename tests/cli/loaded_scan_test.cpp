@@ -1,4 +1,4 @@
-// Tests the points that the studio shows of a scan while it is turned.
+// Tests the points that the studio shows of a scan while the user turns the scan.
 #include "studio/loaded_scan.h"
 
 #include "relievo/scan/mesh.h"
@@ -17,7 +17,8 @@ Box box_in(const Cloud& cloud, const View& view) {
   return box;
 }
 
-// Expects that a scene is turned with the places and the extent of its relief in the view.
+// Expects that the points for turning a scene have about the same extent in the view plane as the points for
+// its relief.
 void expect_same_extent(const Scene& scene, const char* side) {
   const View view = parse_view(side).value();
   const LoadedScan scan({}, scene);

@@ -50,8 +50,8 @@ TEST(PreviewOfRelief, OfABentLithophaneIsTheFlatOneLitFromBehind) {
   EXPECT_EQ(half_of(preview_of(made, {.longer_side_px = side_px}), false), half_of(flat, false));
 }
 
-// The front view shows the relief before it is bent. The oblique view must show the bent relief: a
-// larger sphere in the relief must change it.
+// The front view shows the relief before it is bent. The oblique view must show the bent relief, so a larger
+// sphere in the relief must change the oblique view.
 TEST(PreviewOfRelief, OfAnInsideWrapShowsTheWork) {
   for (const char* wrap :
        {"cylinder:turn=360,inside", "cylinder:turn=360,inside,direction=0", "cylinder:turn=270,inside",

@@ -25,7 +25,8 @@ OptionValues values(std::initializer_list<std::pair<const std::string, OptionVal
   return {all.begin(), all.end()};
 }
 
-// Given options replace those of the project, also options that they exclude.
+// Given options replace the project's values of the same options. The project's options that the given ones
+// exclude are dropped.
 TEST(ProjectOptions, GiveWayToTheirAlternatives) {
   const OptionValues paper = values({{"alpha", 10.}, {"method", "paper"}, {"width", 50.}}),
                      scale = values({{"mm-per-value", 5.}, {"ground", 2.}, {"method", "linear"}}),

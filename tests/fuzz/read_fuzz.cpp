@@ -1,6 +1,7 @@
-// The fuzz target of all readers. The first byte of an input chooses the channels of a picture. The ending of the
-// file's name follows, up to the end of the line, such as "obj"; the rest is the file. In OBJ and glTF a zero byte ends
-// the file, and the files beside it follow: first materials or a buffer, up to another zero byte, then a picture.
+// Fuzz target of all readers. The first byte of an input chooses the channels of a picture. The rest of the
+// line is the ending of the file's name, such as "obj"; all that follows is the file. In OBJ and glTF a zero
+// byte ends the file, and the files beside it follow: first materials or a buffer, up to another zero byte,
+// then a picture.
 #include <cstdlib>
 
 #include "fuzz/fuzz_program.h"

@@ -29,8 +29,8 @@ TEST(Inset, LeavesOutSidesThatVanish) {
   EXPECT_EQ(inset(cut, 30.0 * (2 - std::sqrt(2.0))).size(), 4U);
 }
 
-// The expected rectangle is met only to a micrometre, because round corners are polygons inside their arcs,
-// before and after the inset.
+// The result is the rectangle only to a micrometre, because polygons inside the arcs stand for the round
+// corners, before and after the inset.
 TEST(Inset, RoundCornersOfThatRadiusBecomeSharp) {
   const std::vector<Vec2> corners = {{0, 0}, {60, 40}};
   const std::vector<Vec2> rounded = outline_around(corners, {Outline::round, 5, 5});
@@ -49,8 +49,8 @@ TEST(Inset, EveryCornerIsAsFarInsideAsAsked) {
     const std::vector<Vec2> moved = inset(polygon, mm);
     for (const Vec2& p : moved) RC_ASSERT(std::abs(depth_in(polygon, p) - mm) < 2e-4);
     if (mm <= 0) RC_ASSERT(moved.size() == polygon.size());
-    // The inset removes no more than it should: the points are at least 10 inside the polygon, so they are at
-    // least 10 - mm inside the inset one.
+    // The inset removes no more than it should: the points are at least 10 inside the given polygon, so they
+    // are at least 10 - mm inside the resulting polygon.
     for (const Vec2& p : points) RC_ASSERT(depth_in(moved, p) >= 10 - mm - 1e-3);
   }));
 }

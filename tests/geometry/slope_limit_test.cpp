@@ -67,8 +67,8 @@ Flattened flattened(const Needles& given, Rounding rounding) {
   return made;
 }
 
-// To flatten these needles, the far corner must move several times by less than half a unit of single
-// precision. The moves must add up, although rounding would undo each of them alone.
+// To flatten these needles, a far corner must move several times by less than half the spacing of
+// single-precision numbers. The moves must add up, although rounding would undo each of them alone.
 TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   const Needles needles = stored({{Vec3(20.0135155, 20.0189285, 3.00464439),
                                    {20.0135326, 20.0189762, 3.00460148},

@@ -155,8 +155,8 @@ TEST(Delaunay, AgreesWithBruteForceOnSmallIntegers) {
   }
 }
 
-// Three points are a triangle in every Delaunay triangulation if no other point lies inside or on their
-// circle.
+// Three points form a triangle of every Delaunay triangulation if no other point lies inside or on their
+// circumcircle.
 TEST(Delaunay, HasAllTrianglesWithAnEmptyClosedCircle) {
   ASSERT_TRUE(rc::check([] {
     Points points = few_integer_points(12, 4);

@@ -45,8 +45,8 @@ TEST(Pcd, LinesOfOtherProgramsInTheHeaderAreIgnored) {
   EXPECT_EQ(file.cloud.points, file_of(ascii_pcd(), "a.pcd").cloud.points);
 }
 
-// The cloud is the depth image of a camera at the origin, row by row. It shows a plane whose depths are off
-// by up to 0.03 pixels.
+// The cloud is the depth image of a camera at the origin, row by row. It shows a plane whose depths have
+// errors of up to 0.03 times the width of a pixel.
 TEST(Pcd, OrganisedCloudsAreSmoothedAndHaveNormals) {
   constexpr int columns = 24, rows = 18;
   std::string points;

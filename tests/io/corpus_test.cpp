@@ -345,8 +345,8 @@ TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {
   }
 }
 
-// All files contain the same picture, in values of different numbers of bits. After division by the largest
-// value of these bits, the pictures are equal up to rounding.
+// All files contain the same picture, but with different numbers of bits per value. After division by the
+// largest value of that number of bits, the pictures are equal up to rounding.
 TEST_F(Corpus, OnePictureHasTheSameDepthsInNumbersOfEverySize) {
   const fs::path depth = folder_ / "image-rs+image-tiff/tests/libtiffpic/depth";
   const auto finest = depths_at(depth / "flower-minisblack-16.tif");

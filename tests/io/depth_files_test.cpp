@@ -72,7 +72,8 @@ TEST(ReadDepthImage, TransparentPixelsOfAPngAreMissing) {
     EXPECT_TRUE(i < 8 ? std::isnan(image.values[i]) : image.values[i] == 10 * static_cast<float>(i)) << i;
 }
 
-// The chunk consists of its length, 2, its name, the grey value 3001, which is transparent, and its checksum.
+// The chunk consists of its length (2), its name, the grey value that is transparent (3001), and its
+// checksum.
 TEST(ReadDepthImage, TheTransparentGreyOfAPngIsMissing) {
   std::string file = as_string(write_png(grey16()));
   const std::string chunk("\0\0\0\2tRNS\x0B\xB9\x27\xDA\x1F\xDB", 14);

@@ -22,7 +22,8 @@ JpegSquares grey_squares() {
   return picture;
 }
 
-// Returns a grey picture in three equal channels, which many programs write instead of a grey one.
+// Returns a grey picture that has three equal channels instead of one. Many programs write grey pictures in
+// this way.
 JpegSquares grey_colours() {
   JpegSquares picture = grey_squares();
   picture.channels = 3;

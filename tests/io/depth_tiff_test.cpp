@@ -110,7 +110,7 @@ TEST(DepthTiff, TransparentPixelsAreMissing) {
     const float value = image.values[static_cast<std::size_t>(i)];
     EXPECT_TRUE(i % 3 ? value == static_cast<float>(i) : std::isnan(value)) << i;
   }
-  // If the second channel is requested, the result has its values.
+  // If the second channel is requested, the values are those of this channel.
   EXPECT_EQ(value_of(read_tiff({16, 1, 2}, pixels, {false, 2})).values[0], 32767);
 }
 

@@ -89,7 +89,8 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   EXPECT_EQ(file.cloud.normals[1], Vec3f(1, 0, 0));
 }
 
-// The pose has no translation. Of its quaternion, a quarter turn about x, it has only the components w and x.
+// The pose has no translation. Its rotation, a quarter turn about x, is a quaternion that has only the
+// components w and x.
 TEST(E57, MissingPartsOfAPoseAreZero) {
   const auto file = value_of(
       read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a"));

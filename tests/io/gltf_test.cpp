@@ -331,8 +331,8 @@ TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
     }
 }
 
-// If the reader searched for the root from each node, this would take half a minute; if it searched
-// recursively, the stack would overflow.
+// If the reader searched for the root from each node, reading would take half a minute. If the reader
+// searched recursively, the stack would overflow.
 TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";
   const int length = 400000;

@@ -38,8 +38,8 @@ TEST(EsriGrid, ReadsOtherSpellings) {
   EXPECT_TRUE(std::isnan(commas.values.at(3, 3)));
 }
 
-// A grid is in degrees if its corner is a position on the globe, and its heights would be far too large
-// for its width if both were in metres.
+// A grid counts as in degrees under two conditions: its corner is a position on the globe, and its heights
+// would be far too large for its width if heights and width were in metres.
 TEST(EsriGrid, ConvertsDegrees) {
   const std::string heights = " 0 300 200 100 0 300 200 100 0 300 200 100 0 300 200 100";
   const auto size_at = [&](const std::string& corner, const std::string& cell) {

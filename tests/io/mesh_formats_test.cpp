@@ -220,7 +220,8 @@ TEST(Off, TheKeywordMayBeMissing) {
 }
 
 // Numbers after a face may be its colour, so a second face in the same line is skipped as a colour. The
-// reader notices only at the end of the file that a face is missing. It must then state this reason.
+// reader notices only at the end of the file that a face is missing. The message must then say that each face
+// has to begin on a line of its own.
 TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
   EXPECT_EQ(
       message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),

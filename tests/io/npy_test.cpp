@@ -5,8 +5,8 @@
 namespace relievo {
 namespace {
 
-// Returns the numbers of an array as bytes, with value(row, column) for each number. A row is an index of all
-// dimensions but the last, counted through; a column is an index of the last dimension.
+// Returns the numbers value(row, column) of an array as bytes. Rows are the positions in all dimensions but
+// the last, numbered consecutively. A column is an index of the last dimension.
 template <typename Number, typename Value>
 std::string numbers(std::size_t rows, std::size_t columns, const Value& value) {
   std::string data;
@@ -58,8 +58,8 @@ TEST(NpyPoints, SeveralPicturesAreOneCloudInBothOrders) {
   EXPECT_EQ(file_of(npy("<f4", data, "2, 3, 4, 3", true), "scan").cloud.points, points);
 }
 
-// Rows of more than three numbers have normals and colours if their values look like it. A short table is a depth
-// image.
+// In rows of more than three numbers, the reader recognises normals and colours by their values. A short
+// table is a depth image.
 TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   const auto value = [](std::size_t r, std::size_t c) {
     const double turn = .1 * static_cast<double>(r);
@@ -81,8 +81,8 @@ TEST(NpyPoints, NormalsAndColoursAreFoundByTheirValues) {
   EXPECT_TRUE(is_picture(bytes_of(npy("<u2", numbers<std::uint16_t>(200, 6, counted), "200, 6"))));
 }
 
-// Returns an array of the points that a camera sees. Its y axis points down. It looks at a plane at
-// distance 2, whose depths are off by up to 0.03 pixels.
+// Returns an array of the points that a camera sees. The camera looks at a plane at distance 2, and its y
+// axis points down. The depths have errors of up to 0.03 times the width of a pixel.
 std::string point_map(float missing) {
   constexpr int columns = 24, rows = 18;
   std::string data;

@@ -115,7 +115,7 @@ TEST(Obj, CornersOfConcavePolygonsKeepTheirNormals) {
     const auto& p = file.mesh.points;
     area += (p[b] - p[a]).cross(p[c] - p[a]).norm() / 2;
   }
-  EXPECT_DOUBLE_EQ(area, 2);  // the arrow's area; triangles outside of it would increase it
+  EXPECT_DOUBLE_EQ(area, 2);  // the arrow's area, which triangles outside of the arrow would increase
   for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c)
       EXPECT_EQ(file.mesh.corner_normals[t][c], file.mesh.triangles[t][c] == 2 ? x : z);

@@ -50,8 +50,8 @@ TEST(ReadSvg, SmoothCommandsMirrorTheLastControlPoint) {
 
 TEST(ReadSvg, ArcsAreEllipses) {
   EXPECT_NEAR(area_of(svg_of("M-3 0A3 2 0 0 1 3 0A3 2 0 0 1-3 0Z")), 6 * std::numbers::pi, .01);
-  // If a chord is as long as the radius, the smaller of its two arcs cuts off a circular segment. Its area
-  // is a sixth of the disc minus a triangle.
+  // The chord is as long as the radius. So the smaller of its two arcs cuts off a circular segment whose area
+  // is that of a sixth of the disc minus a triangle.
   const double segment = std::numbers::pi / 6 * 100 - std::sqrt(3.) / 4 * 100;
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 0 1 10 0Z")), segment, .05);
   EXPECT_NEAR(area_of(svg_of("M0 0A10 10 0 1 1 10 0Z")), 100 * std::numbers::pi - segment, .3);

@@ -47,8 +47,8 @@ CloudFile read_with(const std::string& text, const std::string& name, const File
   return value_of(read_cloud(bytes_of(text), name, files_beside(files)));
 }
 
-// The corners of both triangles are at the centres of three pixels: the lower left pixel, its right neighbour
-// and its upper neighbour.
+// The texture coordinates are the centres of three pixels: the lower left pixel, its right neighbour and its
+// upper neighbour.
 const std::string textured_obj =
     "mtllib my scan.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\nvt .125 .125\nvt .375 .125\nvt .125 .375\n"
     "usemtl skin\nf 1/1 2/2 3/-1\nusemtl plain\nf 1/2 2/2 4/3\n";

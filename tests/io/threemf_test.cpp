@@ -1,4 +1,4 @@
-// Tests the XML document in 3MF files. tests/cli/archive_test.cpp reads it from an archive.
+// Tests the XML document in 3MF files. tests/cli/archive_test.cpp tests whole 3MF files, which are archives.
 #include <Eigen/Geometry>
 
 #include "support/format_samples.h"

@@ -9,7 +9,8 @@
 namespace relievo {
 namespace {
 
-// Returns the area for ornaments of a round plate with radius 30 around (30, 30). Its polygon contains the circle.
+// Returns the area for ornaments on a round plate with radius 30 around (30, 30): a polygon with its corners
+// on the circle.
 OrnamentFrame coin() {
   OrnamentFrame frame;
   const int n = 720;
@@ -77,7 +78,7 @@ TEST(OrnamentShapes, LettersKeepClearOfBorders) {
 
 TEST(OrnamentShapes, LettersThatHangBelowTheLineMakeItRise) {
   const auto [low, high] = radii_of(shape_of(text_on(TextArc::bottom, "Ip")));
-  EXPECT_NEAR(low - 25, 30 - high, .15);  // a straight stroke's ends are farther from the centre
+  EXPECT_NEAR(low - 25, 30 - high, .15);  // the ends of a straight stroke are farther out than its middle
   EXPECT_LT(low, 25.8);
 }
 

@@ -130,7 +130,7 @@ class Studio {
   std::string document_;
 };
 
-// Returns the numbers of the allocations to fail in turn, out of the `all` allocations of a request. They are
+// Returns which of the `all` allocations of a request are to fail, one in each repetition. Their numbers are
 // evenly spaced. There are about `usual` of them, or as many as the environment variable ALLOCATIONS says.
 std::vector<long> chosen(long all, long usual) {
   const char* const asked = std::getenv("ALLOCATIONS");

@@ -10,8 +10,8 @@
 namespace relievo {
 namespace {
 
-// The normals are estimated, so their signs are unknown, and each frame has to orient them towards
-// the viewer. That must not copy the points either.
+// The normals are estimated, so their signs are unknown, and each frame has to orient them towards the
+// viewer. Orienting the normals must not copy the points either.
 TEST(TurningMemory, CopiesThePointsInNoFrame) {
   Cloud cloud = *make_sample("shell", {.points = 100000});
   cloud.normals.clear();

@@ -12,7 +12,7 @@ namespace relievo::paper {
 namespace {
 
 // Solves equation (9) as printed in the paper. The system has one equation for each boundary point, and one
-// for each pair of a point and one of its six nearest points. These are found by sorting.
+// for each pair of a point and one of its six nearest points. The nearest points are found by sorting.
 Eigen::VectorXd dense_heights(const std::vector<Vec2>& points, const std::vector<std::uint8_t>& is_boundary,
                               const std::vector<Vec2f>& slopes) {
   const auto n = static_cast<Eigen::Index>(points.size());

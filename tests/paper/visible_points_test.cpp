@@ -7,8 +7,8 @@
 namespace relievo::paper {
 namespace {
 
-// Applies the rule of section 3.2 of the paper by brute force. For each point, all other points are tested
-// for whether they are in its cell.
+// Applies the rule of section 3.2 of the paper by brute force. The points in the same cell as a point are
+// found by testing all points.
 TEST(PaperVisiblePoints, AreThoseNearTheHighestPointOfTheirCell) {
   const Cloud cloud = test::sphere(1500, 1);
   const double rho = .06;

@@ -168,8 +168,8 @@ Result<Solid> solid_on(const PlateOptions& plate) {
   return plate.wrap.kind == WrapKind::none ? std::move(solid) : wrap_plate(solid, plate);
 }
 
-// On a curved base, a solid has the normals of its triangles, a frame those of relief and base
-// together. Pictures of both must look alike.
+// On a curved base, a solid has the normals of its triangles, but a frame has the normals of relief and base
+// together. Pictures of solid and frame must look alike.
 TEST(OneRenderer, DrawsAFrameOnEachPlateAsTheSolidThatIsMadeOfIt) {
   FrameRenderer renderer(bodies().model);
   for (const auto& [name, plate] : plates_of_all_kinds()) {

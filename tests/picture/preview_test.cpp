@@ -109,7 +109,7 @@ TEST(HeightMap, NothingToDrawGivesNoPixels) {
 
 // ------------------------------------------------------------------------------------------------- preview
 
-// Returns the height at (x, y) of a hemisphere of radius 15 at the centre of a plate of 60 x 60.
+// Returns the height at (x, y) of a hemisphere of radius 15 at the centre of a front of 50 x 50.
 double hemisphere(double x, double y) {
   return std::sqrt(std::max(0.0, 225 - (x - 25) * (x - 25) - (y - 25) * (y - 25)));
 }
@@ -118,7 +118,8 @@ Solid hemisphere_plate() {
   return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
-// Returns the mean of the three channels at the point (x, y), in millimetres, in the front view of a plate of 60 x 60.
+// A picture of the front view of a plate of 60 x 60 mm. The call operator returns the mean of the three
+// channels at the point (x, y), in mm.
 struct FrontView {
   Image8 image;
 

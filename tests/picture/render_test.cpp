@@ -139,8 +139,8 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
-// If the camera is rotated, all triangles are drawn again. In the front view, cached triangles are
-// looked up instead. For a hardly rotated camera, both must look the same.
+// If the camera is rotated, all triangles are drawn again. In the front view, cached triangles are looked up
+// instead. For a camera that is hardly rotated, both ways must give almost the same picture.
 TEST(Render, OrbitBeginsAtTheFront) {
   RenderOptions turned = small();
   turned.camera.pitch_deg = 1e-7;

@@ -23,7 +23,8 @@ MadeRelief relief_of(Cloud cloud) {
   return value_of(make_relief(std::move(cloud), options));
 }
 
-// Returns the relief's heights in mm, at the centres of the pixels of the picture from which it was made.
+// Returns the heights of a relief, in mm, at the centres of the pixels of the picture that the relief was
+// made from.
 Image<double> heights_mm(const MadeRelief& made, int side) {
   constexpr double mm_per_pixel = .2;
   const HeightsMm map = make_heights_mm(made.solid, {.mm_per_pixel = mm_per_pixel, .zero = MapZero::ground});
@@ -44,8 +45,8 @@ Image<double> heights_mm(const MadeRelief& made, int side) {
   return heights;
 }
 
-// Returns a picture of the relief under a lamp. It has half the resolution of the depth picture, which has no details
-// smaller than two of its pixels.
+// Returns a picture of the relief under a lamp. Its resolution is half that of the depth picture, because the
+// depth picture has no details smaller than two pixels.
 Image8 shading_of(const MadeRelief& made, int side) {
   const Image<double> heights = heights_mm(made, side);
   const Vec3 lamp = Vec3(-1, 1, 1.5).normalized();
@@ -92,8 +93,8 @@ Figure figure_of(const Cloud& cloud, const PictureCamera& camera) {
 
 struct Judgement {
   double share_used = 0;  // share of the figure's pixels that are used
-  int farthest_px = 0;    // largest distance between used pixels and pixels of the figure, both ways
-  int crumbs = 0;         // number of small parts (below 0.5 %), less that of the figure
+  int farthest_px = 0;    // largest distance of a used pixel from the figure, or the reverse
+  int crumbs = 0;         // number of used parts below 0.5 %, minus number of such parts of the figure
   double similarity = 0;  // between the relief of the read picture and that of the cloud
 };
 

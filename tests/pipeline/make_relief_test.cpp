@@ -178,7 +178,8 @@ TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   EXPECT_FALSE(paper->report.height_usual_mm);
 }
 
-// The dome is too shallow for the default height, a twentieth of its width, with or without a draft angle.
+// The default height is a twentieth of the relief's width. The dome is too shallow for this height, with or
+// without a draft angle.
 TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   Cloud shallow = test::sphere(20000, 1);
   for (Vec3& p : shallow.points) p.z() *= .02;

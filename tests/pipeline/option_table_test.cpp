@@ -67,7 +67,8 @@ TEST(ParseOptions, EachBecomesItsValue) {
   EXPECT_EQ(others->outline, Outline::circle);
 }
 
-// Returns whether every text is a valid value of the option. Such values are texts to be set, and names of files.
+// Returns whether every text is a valid value of the option, such as a text for the plate or the name of a
+// file.
 bool is_any_text(const OptionRow& option) {
   return option.name == "text" || option.name == "font" || option.name == "ornaments";
 }

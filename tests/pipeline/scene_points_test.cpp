@@ -243,10 +243,10 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
                q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
-  // `steepest` is the largest height difference, in mm, between the ends of two edges of each triangle. Edges on the
-  // balls are only a fraction of a millimetre long, so their ends differ little in height. The depths of the balls
-  // differ by more than the width of the relief. So a wall between them would be almost as high as the whole relief, 4
-  // mm.
+  // `steepest` is the largest height difference, in mm, between the two ends of an edge; two edges of each
+  // triangle are measured. Edges on the balls are only a fraction of a millimetre long, so their ends differ
+  // little in height. The depths of the balls differ by more than the width of the relief. So a wall between
+  // the balls would be almost as high as the whole relief, 4 mm.
   EXPECT_LT(steepest, 1.0);
 }
 

@@ -90,8 +90,8 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
-// Even if work rarely checks whether it was cancelled, the user must not have to wait for it, and its
-// result must not appear later.
+// Even if work rarely checks whether it was cancelled, the user must not have to wait for the work, and the
+// result of the work must not appear later.
 TEST(Session, SaysAtOnceThatItIsCancelled) {
   Session session;
   std::binary_semaphore has_begun{0}, goes_on{0};

@@ -72,10 +72,10 @@ struct FacetBounds {
 
 class SmoothSolid : public testing::TestWithParam<FacetBounds> {};
 
-// The bounds are not smaller for three reasons. At the small button's edge, the normal turns from one point to the
-// next: by 14 degrees for 20,000 points, by 3 degrees for 250,000. The step at the jump has the requested height. The
-// slopes beside the jump give another height, so the rows next to it bend. A wide boundary weight bends the surface by
-// 13 degrees along the whole silhouette.
+// Three things prevent smaller bounds. First, at the small button's edge the normal turns from one point to
+// the next: by 14 degrees for 20,000 points, by 3 degrees for 250,000. Second, the step at the jump has the
+// requested height, but the slopes beside the jump give another height, so the rows of points next to the
+// jump bend. Third, a wide boundary weight bends the surface by 13 degrees along the whole silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);

@@ -166,7 +166,8 @@ TEST(CheckSolid, NamesWhatIsBroken) {
 }
 
 TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
-  // The solid consists of the same closed body twice, once of it inside out. So each edge belongs to four triangles.
+  // The solid consists of a closed body and of the same body inside out. So each edge belongs to four
+  // triangles.
   Solid solid = bumpy_plate();
   const std::vector<Triangle> once = solid.triangles;
   for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});
@@ -265,8 +266,8 @@ TEST(InUnit, ScalesAndSeparates) {
   EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
 }
 
-// Two points of a needle differ in a file in millimetres. If their coordinates are merely divided by
-// 25.4, they may be equal in a file in inches.
+// Two corners of a thin triangle are different in a file in millimetres. If their coordinates are merely
+// divided by 25.4, they may be equal in a file in inches.
 TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {

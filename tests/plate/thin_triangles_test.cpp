@@ -67,9 +67,9 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// The points of a silhouette are almost collinear. Two thin triangles lie outside their line, with a slit
-// between them and the wide triangles. The outer thin triangle connects both ends of the slit. After its
-// removal, the inner one connects them, so it is removed, too.
+// The points of a silhouette are almost collinear. Two thin triangles lie outside the line of these points,
+// with a slit between them and the wide triangles. The outer thin triangle connects both ends of the slit.
+// After its removal, the inner thin triangle connects the ends, so it is removed, too.
 TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
   const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
                                  {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};

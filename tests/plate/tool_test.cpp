@@ -21,9 +21,9 @@ Image<float> picture(int width, int height, const auto& z) {
   return image;
 }
 
-// Computes the heights that the tool leaves by the definition of a closing. The tool is lowered at every
-// sample, and also outside the picture, up to its radius. Each sample gets the lowest height above it that
-// any position of the tool leaves.
+// Computes, by the definition of a closing, the heights that the tool leaves. The tool is lowered at every
+// sample, and also up to the length of the picture's longer side outside the picture. Each sample gets the
+// lowest height that any position of the tool leaves there.
 Image<float> closed_by_brute_force(const Image<float>& z, double step, const Tool& tool) {
   const int border = std::max(z.width, z.height);
   Image<float> left = z;
@@ -117,7 +117,8 @@ TEST(CloseByTool, ABallInAGroove) {
   const double step = .01, half = .3, radius = 1;
   const auto groove = picture(301, 41, [&](int x, int) { return std::abs(x - 150) * step <= half ? 0 : 2; });
   const Image<float> left = close_by_tool(groove, step, ball);
-  // The ball rests on the upper edges of both walls. Their distance from its axis is `half` plus one sample.
+  // The ball rests on the upper edges of both walls. The distance of these edges from the ball's axis is
+  // `half` plus one sample.
   const double edge = half + step;
   EXPECT_NEAR(left.pixels[20 * 301 + 150], 2 - (radius - std::sqrt(radius * radius - edge * edge)), 1e-5);
 }

@@ -108,9 +108,9 @@ TEST(NearOrderKept, CountsNearPairsAlone) {
     }
   const PixelMask where(inside);
   // A pair across the cliff has the wrong order. The share of these pairs is the mean distance of a pair
-  // along x, divided by the width, 400. The distance of near pairs is between 12 and 40. So its mean along
-  // x is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2). Pairs less than 4 apart along x do not count. They
-  // are 9 %, so the share is divided by 0.91.
+  // along x, divided by the width, 400. The distance of near pairs is between 12 and 40, so the mean distance
+  // along x is 2 / pi times 2/3 (40^3 - 12^3) / (40^2 - 12^2). Pairs less than 4 apart along x do not count.
+  // They are 9 % of all near pairs, so the share is divided by 0.91.
   EXPECT_NEAR(near_order_kept(z, depth, where), 1 - .0499, .003);
   EXPECT_NEAR(order_kept(z, depth, where), .75, .01);
   EXPECT_EQ(near_order_kept(depth, depth, where), 1);

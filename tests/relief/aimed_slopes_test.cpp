@@ -26,7 +26,7 @@ TEST(AimedSlope, HasTheShadingAndKeepsWhatIsAcrossTheLight) {
     if (aimed == s) continue;
     ++changed;
     EXPECT_NEAR(shading_of(aimed, l), wanted, 1e-9);
-    // No slope that is nearer to s along the light has this shading.
+    // On the line through `s` along the light, no slope nearer to `s` than `aimed` has this shading.
     const Vec2 along = Vec2(l.head<2>()).normalized();
     const double distance = (aimed - s).norm();
     for (double t = -.97; t < .98; t += .01) {
@@ -39,7 +39,8 @@ TEST(AimedSlope, HasTheShadingAndKeepsWhatIsAcrossTheLight) {
 }
 
 TEST(AimedSlope, StaysWhereNoSlopeHasTheShading) {
-  // Where the slope across the light is 3, no slope along the light is brighter than sqrt(l_z^2 / 10 + h^2).
+  // If the slope across the light is 3, the shading is at most sqrt(l_z^2 / 10 + h^2), whatever the slope
+  // along the light is. Here, h is the length of (l_x, l_y).
   const Vec3 l = direction_of({0, 60});
   EXPECT_EQ(aimed_slope<double>({.3, 3}, l, .9), Vec2(.3, 3));
 }

@@ -66,7 +66,7 @@ TEST(DepthJumps, VanishByThePapersMethod) {
   }
 }
 
-// The other methods just keep these bounds. Layered reliefs have steps on purpose.
+// For other methods, only bounds of the steps are tested. Layered reliefs have steps on purpose.
 TEST(DepthJumps, LeaveBoundedStepsByOtherMethods) {
   for (const auto& [name, cloud] : scenes(15000)) {
     const ReliefModel model = test::prepared(cloud);

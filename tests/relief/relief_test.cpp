@@ -21,8 +21,8 @@ TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
       3000, 1, [](double x, double) { return .5 * x; }, [](double, double) { return Vec2(.5, 0); });
   const ReliefModel model = prepared(tilted);
   EXPECT_NEAR(model.make({{0, 0}, 0}).height, 0, 1e-12);
-  // Even if all slopes are kept, the relief stays low. Both ends of the slope are at height 0, which is
-  // impossible for a slope, so the least squares spread the error.
+  // Even if all slopes are kept, the relief stays low: its boundary has the height 0, so the relief cannot
+  // follow the slope of the plane everywhere, and the least squares spread the error.
   EXPECT_LT(model.make({keep_all, 0}).height, .2);
 }
 

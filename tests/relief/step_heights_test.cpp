@@ -32,8 +32,8 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
-// Returns the largest error of the heights. Points within 2.5 sampling distances of the terraces' edges
-// do not count, because the points determine the position of these edges no more exactly than that.
+// Returns the largest error of the heights. Points within 2.5 sampling distances of the terraces' edges do
+// not count, because the positions of these edges follow from the points only with that accuracy.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {

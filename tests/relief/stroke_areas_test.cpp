@@ -48,7 +48,7 @@ TEST(Lasso, HasWhatItEnclosesAndMeasuresFromItsEdge) {
   }
 }
 
-// A lasso selects the same points of the model in every view, as far as they are visible.
+// A lasso selects the same points of the model in every view in which these points are visible.
 TEST(Lasso, BelongsToTheModelInEveryView) {
   const Cloud ball = test::sphere(40000, 1);
   const Stroke stroke = lasso_of(ellipse(.5, .3, .85), Vec3::UnitZ());

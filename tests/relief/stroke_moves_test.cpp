@@ -104,7 +104,7 @@ TEST(StrokeMoves, StandInFrontOfWhatIsBehindThem) {
   }
   for (Index i = 0; i < z.size(); ++i)
     if (surface.points[i].z() > 0) z[i] += .5;
-  EXPECT_EQ(applied(surface, {stroke}, z), z);  // what is in front already stays
+  EXPECT_EQ(applied(surface, {stroke}, z), z);  // points that are far enough in front do not move
 }
 
 // A stroke that takes back a part of the correction must not change anything outside of the stroke.

@@ -36,8 +36,8 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// Returns the largest root mean square error of several reliefs, as a fraction of the height of each.
-// Their heights range from large to very small, and their compression is even or uneven.
+// Returns the largest root mean square error of several reliefs, each as a fraction of the height of its
+// relief. The reliefs range from high to very low, and their compression is even or uneven.
 double worst_error(const Surface& surface, const SubspaceModel& subspace,
                    std::initializer_list<double> betas = {0, .01, 1}) {
   const ReliefModel exact = ReliefModel::prepare(surface).value();

@@ -93,8 +93,8 @@ struct Plane {
   }
 };
 
-// Returns how often a ray along z enters or leaves the solid. The steps along the ray are so small that it
-// misses few crossings.
+// Returns how often a ray along z enters or leaves the solid. The steps along the ray are so small that few
+// crossings are missed.
 int crossings(const field::Solid& solid, Vec3 p) {
   const double step = 0.002;
   int count = 0;
@@ -126,8 +126,8 @@ std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane
   return shares;
 }
 
-// Computes the same fractions from a cloud. Each point represents the same area of the surface. In the view
-// plane this area is smaller by the factor |nz|.
+// Computes the fractions of shares_by_rays() from a cloud. Each point represents an equal area of the
+// surface. In the view plane this area is smaller by the factor |nz|.
 std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
   std::vector<double> shares(plane.cells(), 0);
   for (std::size_t i = 0; i < cloud.size(); ++i)

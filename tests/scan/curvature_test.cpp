@@ -30,7 +30,8 @@ Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const C
   return {sum / n, std::sqrt(std::max(0.0, sum_sq / n - sum * sum / n / n))};
 }
 
-// Expects that errors are small: their mean, and their standard deviation.
+// Expects that the magnitude of the mean error is at most `mean`, and that the standard deviation is below
+// `deviation`.
 void expect_small(const Statistics& errors, double mean, double deviation) {
   EXPECT_NEAR(errors.mean, 0, mean);
   EXPECT_LT(errors.deviation, deviation);

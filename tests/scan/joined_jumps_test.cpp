@@ -19,7 +19,8 @@ OutlineCurve jump(const Vec2& begin, const Vec2& direction) {
   return line;
 }
 
-// Returns two jumps. The second begins after a gap behind the end of the first, and is turned by an angle.
+// Returns two jumps. The second jump begins at the distance `gap` beyond the end of the first, and its
+// direction differs by the angle `turn`.
 std::vector<OutlineCurve> two_jumps(double gap, double turn = 0, bool is_turned_round = false) {
   const OutlineCurve first = jump(Vec2::Zero(), along);
   OutlineCurve second =

@@ -28,7 +28,8 @@ Cloud scattered_torus() {
   return cloud;
 }
 
-// A cloud may be measured once for all views, or for each view. The surfaces of both must be equal, bit for bit.
+// A cloud may be measured once for all views, or anew for each view. The resulting surfaces must be equal,
+// bit for bit.
 TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
   const Cloud cloud = scattered_torus();
   for (const double denoise : {0., .3}) {

@@ -33,7 +33,7 @@ TEST(EstimateNormals, LeavesTwoPointsAlone) {
   EXPECT_FALSE(two.has_normals());
 }
 
-// Returns the mean angle in degrees between the lines along corresponding directions of two lists.
+// Returns the mean angle, in degrees, between the lines that have the directions a[i] and b[i].
 double mean_angle(const std::vector<Vec3f>& a, const std::vector<Vec3f>& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i)

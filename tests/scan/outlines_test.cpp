@@ -13,7 +13,8 @@ Cloud two_buttons(std::size_t n) {
   return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
-// Returns the distances of points of the surface from the model's z axis, for the points i with holds(i).
+// Returns the distances of points from the model's z axis, for those points i of the surface for which
+// holds(i) is true.
 template <typename Condition>
 std::vector<double> radii(const Surface& surface, Condition holds) {
   std::vector<double> found;

@@ -35,8 +35,9 @@ TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
   EXPECT_GT(seen(.035, .5), 20U);  // a stud in front of a wall is visible
 }
 
-// A patch lies behind a wall, beside the wall's edge, across a gap of 3.5 spacings. It is so steep that its
-// continuation across the gap would reach the wall, so the depths do not show the gap.
+// A patch lies behind a wall. In the view, a gap of 3.5 spacings separates the patch from the wall's edge.
+// The patch is so steep that its continuation across the gap would reach the wall, so the depths do not show
+// the gap.
 TEST(SmallPatches, BeyondAGapAreLeftOut) {
   Cloud cloud = window(0, 0);
   const double edge = .495, step = .01;

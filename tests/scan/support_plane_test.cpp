@@ -152,8 +152,8 @@ TEST(SupportPlane, IsNoFaceOfASolid) {
   EXPECT_FALSE(surface_of(test::torus(20000, 2, .5)).plane);
 }
 
-// The ground of a plaque must not count as a support plane. The letters on it are 1/50 as high as the
-// plaque is wide, the relief 1/20.
+// The ground of a plaque must not count as a support plane. The square on it rises by 1/50 of the plaque's
+// width, as letters do, or by 1/20, as a relief does.
 TEST(SupportPlane, IsNoPlaquesGround) {
   EXPECT_FALSE(surface_of(test::sheet(20000, 1, 0, 5)).plane);
   for (const double half : {.1, .3, .7})

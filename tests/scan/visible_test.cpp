@@ -106,8 +106,8 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
-// The ledge begins at the edge of the depth image, one pixel wide. The points there have no near
-// neighbours. Such points hide many others, unless the cloud is marked as a height field.
+// The ledge lies at the edge of the depth image. Its narrow end is one pixel wide, and the points there have
+// no near neighbours. Such points hide many others, unless the cloud is marked as a height field.
 TEST(Visible, OfAHeightFieldIsAll) {
   Cloud steps;
   for (int y = 0; y < 60; ++y)

@@ -18,8 +18,8 @@ bool is_rim(std::size_t n) {
   return x == 0 || y == 0 || x == width - 1 || y == height - 1;
 }
 
-// Returns a stiffness with tension 1 and the same bending stiffness at all nodes. The nodes at the edge of
-// the lattice are fixed instead.
+// Returns a stiffness with tension 1 at all nodes, and with the bending stiffness `bending` except at the
+// edge of the lattice. There the bending stiffness is 0, which fixes the nodes.
 Stiffness even(float bending) {
   Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
   for (std::size_t n = 0; n < all.bending.size(); ++n)
@@ -188,7 +188,8 @@ TEST(ObstacleSolver, TakesLimitsThatMeet) {
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
-// The field must bend at a hinge: its second difference there must be larger than four nodes away.
+// The field must bend at a hinge: its second difference must be larger at the hinge than four nodes away from
+// the hinge.
 TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);

@@ -40,8 +40,8 @@ constexpr std::array<float, 2> distances{2, 4.6F};
 constexpr float saturation = .7F;
 constexpr OrderLimits limits{.4F, .3F};
 
-// Computes the energy of the pull by its definition. It is the sum over all pairs of nodes at one of the
-// given distances, along a row, a column or a diagonal; positions are rounded to nodes.
+// Computes the energy of the pull by its definition. The energy is a sum over all pairs of nodes at one of
+// the given distances, along a row, a column or a diagonal; positions are rounded to nodes.
 double energy(const std::vector<float>& depth, const std::vector<float>& heights) {
   const std::vector<float> share_of = shares();
   double sum = 0;

@@ -30,7 +30,8 @@ inline std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
 using Widths = std::array<int, 4>;
 inline constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// A group of 16 differences, packed with the number of bits that takes the fewest bytes.
+// A group of 16 differences. It is packed with that number of bits per difference which gives the fewest
+// bytes.
 struct Group {
   int code = -1;
   std::string bytes;

@@ -82,7 +82,8 @@ inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
   return {points, std::move(mesh.triangles), std::move(mesh.hull)};
 }
 
-// Returns a plate with that front. If there is none, or it is not closed, the test fails.
+// Returns a plate with the given front. If making the plate fails, or if the plate is not closed, the test
+// fails.
 inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   Solid plate = value_of(make_plate(front, options));
   EXPECT_EQ(check_solid(plate), "");

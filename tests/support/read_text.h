@@ -54,7 +54,7 @@ inline std::string replaced(std::string text, std::string_view what, std::string
   return text;
 }
 
-// Read a picture of depths with the name "d".
+// Reads a picture of depths with the name "d".
 inline Result<DepthImage> read_image(std::string_view text, const PictureChannels& channels = {}) {
   return read_depth_image(bytes_of(text), "d", channels);
 }

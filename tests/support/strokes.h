@@ -19,7 +19,8 @@ inline std::vector<float> weights_of(const Surface& surface, const Stroke& strok
   return weights;
 }
 
-// Returns the heights z with the strokes. `before` are the heights before the correction, if any.
+// Returns the heights z after the strokes are applied. `before` are the heights before the correction, if
+// any.
 template <typename Real = double>
 std::vector<Real> applied(const Surface& surface, const Strokes& strokes, std::vector<Real> z,
                           double height = 1, const std::vector<Real>& before = {}) {
@@ -42,7 +43,7 @@ inline Frame frame_of(const ReliefModel& model, const FrameOptions& options) {
   return frame;
 }
 
-// Returns a square of side 2 whose left half is that far in front of its right half.
+// Returns a square of side 2 whose left half is `depth` in front of its right half.
 inline Surface step(double depth) {
   return surface_of(height_field(
       40000, 1, [=](double x, double) { return x < 0 ? depth : 0.; },

@@ -57,7 +57,8 @@ export const ARROWS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], 
 // The largest number of pixels of a picture. It is just below the engine's limit; a screen of 5,120 x 2,880 has more.
 const MOST_PIXELS = 7.9e6;
 
-// Returns the number of a fine picture's pixels per pixel of the page, or `wanted` if such a picture is not too large.
+// Returns the width of a picture in its own pixels, divided by its width in pixels of the page. This is `wanted`, or
+// less if the picture would have more than MOST_PIXELS.
 export const pictureScale = ({width, height}, wanted = Math.min(devicePixelRatio, 2)) =>
   Math.min(wanted, Math.sqrt(MOST_PIXELS / (width * height)));
 

@@ -36,8 +36,8 @@ export function directionsOf({view, up}) {
   return {towards, up: upright(up ? triple(up) : SIDES[view]?.up ?? [0, 1, 0], towards)};
 }
 
-// Returns a text that names the picture of a scan seen from these directions. A scan that is read with other options,
-// such as another channel of a picture, has another box.
+// Returns a text that identifies the picture of a scan seen from these directions. The text includes the options for
+// reading the scan, such as the channel of a picture, because the scan's box depends on them.
 export const pictureKey = (directions, {input, options}) =>
   JSON.stringify([directions, input, namesOf("input").map((name) => options[name])]);
 

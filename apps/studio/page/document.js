@@ -112,7 +112,7 @@ export class Document {
     return true;
   }
 
-  // Returns whether one of the steps has the settings of this one; its scan may have another path.
+  // Returns whether one of the steps has the settings of the step `settings`. The scan may have another path.
   has = (settings) => this.steps.some((step) => isSameStep(withPart(step, {...settings, input: step.input}), step));
 
   // Changes the current step to values that the engine has found. Adds no step.
@@ -197,7 +197,7 @@ export function engineOptions(step) {
     if (isThere && (optionOf(name)?.is_stated || value !== FIRST.options[name])) options[name] = value;
   }
   options.height = Math.round(options.height * 1e4) / 1e4;
-  if ("height-of-diagonal" in options) delete options.height; // the first picture has the height in mm that follows from the share
+  if ("height-of-diagonal" in options) delete options.height; // the first picture reports the height in mm
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
@@ -251,7 +251,7 @@ export function studioPart({isHeightLocked, isDieOfPiece, u, material, light}) {
 export function stepOfProject({input, options: {alpha, ...own} = {}, usual = {}, studio = {}}) {
   const options = hasScale({options: own}) ? {...own, method: FIRST.options.method} : own;
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
-  // The engine states defaults for all options, so those that the project keeps come last.
+  // The engine states defaults for all options, so the options in `studio.kept` come last.
   const step = {...FIRST, input,
     options: {...FIRST.options, ...usual, method, width: null, ...options, ...knownOptions(studio.kept)}};
   if (options.height === undefined && method === "paper") {

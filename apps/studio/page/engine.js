@@ -3,14 +3,14 @@
 //
 // A transport has
 //   traits                         {takesSeveral: whether a scan and the files to which it refers are uploaded together;
-//                                  drawsMeanwhile: whether it draws pictures while a piece is made, and while the
+//                                  drawsMeanwhile: whether pictures are drawn while a piece is made, and while the
 //                                  first view is prepared; canRemove: whether documents are stored until the user
 //                                  removes them; slowMs: if pictures take longer than this, they get fewer pixels}.
 //                                  The Engine has the same traits
 //   call(name, request, {files, signal, onSolved}) -> {facts, body}: the body is an object, a Blob, or the bytes of a
-//                                  picture; `facts` has facts about it; the request is optional. onSolved is called
-//                                  when the heights of a picture are solved, if those of the next picture can be
-//                                  solved while this picture is drawn
+//                                  picture; `facts` has facts about the picture; the request is optional. onSolved
+//                                  is called when the heights of a picture are solved, if the heights of the next
+//                                  picture can be solved while this picture is drawn
 //   addressOf(file)             -> the address of one of the page's pictures
 //   follow(onStatus, onLost, say)  calls onStatus(status) for each new status of an open document, in all tabs; calls
 //                                  onStatus({run}) when it finds an engine; calls onLost() when the engine is lost; and

@@ -72,7 +72,7 @@ export class Entries {
     this.changed();
   }
 
-  // Withdraws the newest entry if it still waits and the document has not changed since. Returns whether it did.
+  // Withdraws the newest entry if it waits and the document has not changed since. Returns whether it was withdrawn.
   withdraw() {
     const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
     if (isNewest) this.end(entry);

@@ -4,8 +4,8 @@ import {$, make, sentence} from "./controls.js";
 
 export const fileNameOf = (path) => path.split(/[/\\]/).at(-1);
 
-// Returns a hidden input for files with those endings. Its click() opens the browser's dialog; then it calls take(file)
-// with the chosen file.
+// Returns a hidden input for files with the endings in `accept`. The input's click() opens the browser's dialog. When
+// the user has chosen a file, the input calls take(file).
 export const fileInput = (label, accept, take) =>
   make("input", {type: "file", accept, hidden: true, "aria-label": label, onchange: ({target}) => {
     const [file] = target.files;

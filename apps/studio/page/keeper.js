@@ -2,8 +2,8 @@
 // stays in the browser, where it survives the end of the engine and of the page. This file does not use other files of
 // the page, so that tests can run it alone.
 
-// The shortest time from sending a state to sending the next one, and from the answer to a state to sending the next
-// one. In between, the page and the engine have time for pictures.
+// PERIOD_MS is the shortest time between the sending of two states. PAUSE_MS is the shortest time from the answer to
+// one state to the sending of the next. In between, the page and the engine have time for pictures.
 const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {

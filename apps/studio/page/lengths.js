@@ -36,8 +36,8 @@ export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
 const NOISE = 1e-6; // in mm; larger than the rounding errors of sums, so that 6.175 is always rounded up
 
-// Returns a length without its unit. `decimals` applies to millimetres. Inches have three decimals, or four if three
-// are not exact.
+// Returns a length without its unit. In millimetres it has `decimals` decimals. In inches it has three decimals; if
+// `decimals` is above 2 and three are not exact, it has four.
 export function lengthText(mm, decimals = 2) {
   if (shown.unit === "mm") return (mm + NOISE).toFixed(decimals);
   const text = (mm / MM.in).toFixed(4);

@@ -179,7 +179,7 @@ function showEntries() {
   for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
-// Tells the user once that changes are not stored. Not called if the engine is lost, because another message says so.
+// Tells the user once that changes are not stored. Not called if the engine is lost, because engineLost() reports that.
 function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
@@ -347,8 +347,8 @@ const showRecentNow = () => keepThumbnail().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- start
 
-// Shows the document in the page's address. If there is none, shows the input with which the program was started, or
-// else the document that was changed last.
+// Shows the document that the page's address names. If it names none, shows the input with which the program was
+// started. If there is no such input either, shows the document that was changed last.
 async function resume({first, recent}) {
   const mine = recent.find(({document}) => `#${document}` === location.hash);
   if (mine) return opened.open(mine.input);

@@ -19,8 +19,8 @@ const isPhoto = ({input, options: {form, "depth-values": values}}) => form === "
 export const viewOf = (step) => ({...Object.fromEntries(PREPARED.map((name) => [name, step.options[name]])),
   form: isPhoto(step) ? "lithophane" : "relief"});
 
-// Returns the options of a view for a document. Leaves out the form, unless the form of the document's own view
-// differs, which is possible only for photos.
+// Returns the options that give a document a view. Leaves out the form if the document's own view has the same form.
+// The forms can differ only for photos.
 export const optionsOf = ({form, ...options}, now) => (form === viewOf(now).form ? options : {...options, form});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
@@ -59,9 +59,9 @@ export class OpenDocument {
   }
 
   // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved. If no
-  // state of the document is stored, it gets all steps of `work`. Otherwise only the step `at` is added to its stored
-  // steps. If the engine uses another file with the same bytes, `moved` is the state of the document of the missing
-  // file. Its current step is added in the same way, unless the other file's document has that step.
+  // state of the document is stored, the document gets all steps of `work`. Otherwise only the step `at` is added to
+  // the stored steps. If the scan's file is missing and the engine uses another file with the same bytes, `moved` has
+  // the work on the missing file. `moved` is used like `work`, but its step is not added if the document has that step.
   async open(input, work = null) {
     const found = await this.engine.find(input), moved = workOf(found.moved);
     if (!found.is_there) return this.on.missing(found.input, work ?? workOf(found.kept));
@@ -153,8 +153,8 @@ export class OpenDocument {
   // Returns the view of the document, with the side that the engine chose if the document leaves it open.
   wantedView = (requested) => withSide(viewOf(this.doc.now), requested);
 
-  // Returns whether the model may be shown. The first model of a document must have the requested view, unless that
-  // view failed.
+  // Returns whether the model may be shown. The first model of a document must have the document's view, unless the
+  // preparation of a view has failed.
   isWanted({busy, error, requested}) {
     return this.model > 0 || (!busy && (error || isSameView(requested, this.wantedView(requested))));
   }
@@ -185,7 +185,7 @@ export class OpenDocument {
     this.open(former).catch(this.on.failed);
   }
 
-  // Takes over a stored state of this document if it is newer than the shown one. Returns whether it did.
+  // Takes over the stored state of this document if it is newer than the shown one. Returns whether it was taken over.
   async adopt() {
     const {id} = this, {kept} = await this.engine.find(this.input);
     if (id !== this.id || !(kept?.changed > this.doc.changedAt) || !this.doc.restore(kept)) return false;
@@ -193,8 +193,8 @@ export class OpenDocument {
     return true;
   }
 
-  // Must be called when another engine has replaced the former one. Shows that engine's state of the document if it is
-  // newer than the shown one, and opens the document again.
+  // Must be called when another engine has replaced the former one. If the new engine has a newer state of the document
+  // than the shown state, shows the newer one. Opens the document again.
   async resume() {
     if (!this.id) return;
     if (await this.adopt()) toast("The engine is back. It had newer work on this scan, which is shown here.");

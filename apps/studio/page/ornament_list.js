@@ -4,7 +4,8 @@
 
 const isPath = (source) => !/^(?:[{[]|$)/.test(source);
 
-// Returns the path of the file with the list, which the page can remove but not change; "" if the option has the list.
+// Returns the path if the option `ornaments` names a file with the list; "" if the option itself has the list. The page
+// can stop using such a file, but cannot change it.
 export const fileOf = ({ornaments}) => (isPath(ornaments) ? ornaments : "");
 
 // Returns the text that the options `text`, `font` and `text-...` describe, as a list of at most one ornament. Projects

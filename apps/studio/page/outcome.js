@@ -1,4 +1,4 @@
-// Provides the document for exported files and projects, as soon as all entries are settled and its picture is drawn.
+// Provides the document for exported files and projects, after all entries are settled and its picture is drawn.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";

@@ -9,7 +9,7 @@ import {filesIn} from "./ornament_list.js";
 import {sceneFile} from "./panels/scene_panel.js";
 import {zipOf} from "./zip.js";
 
-// Returns whether one of several files is a scan or a scene that refers to the others.
+// Returns whether one of the files is a scan or a scene that can refer to other files.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
 // Returns one file that contains a .gltf and all files to which the .gltf refers.

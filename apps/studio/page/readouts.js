@@ -37,7 +37,8 @@ export function paperWords({alpha, beta, u}, gamma) {
   return `In the paper's words: ${words.join(", ")}`;
 }
 
-// Shows the share of the front that the milling tool reaches. The picture colours the areas where it leaves material.
+// Shows the share of the front that the milling tool reaches. The picture colours the areas where the
+// tool leaves material.
 export function showToolReach(tool) {
   $("#tool-reach").textContent = !tool ? "" :
     `The tool reaches ${(100 * tool.share).toFixed(1)} % of the front, and leaves up to ` +

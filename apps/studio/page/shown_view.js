@@ -24,8 +24,8 @@ export class ShownView {
     });
   }
 
-  // Waits for the view of a state that another tab has stored. This is needed even if the model already has this view,
-  // since yet another view may have been requested meanwhile.
+  // Waits for the view of a state that another tab has stored. The model may have this view already. Even then the wait
+  // is needed while another view is being prepared.
   adopt() {
     const {view, stage, opened} = this;
     if (!view || (!stage.isAwaiting && isSameView(view, opened.wantedView(view)))) return;
@@ -42,7 +42,7 @@ export class ShownView {
     if (newest.error && !newest.busy) this.restore();
   }
 
-  // Ends the wait when the model has the view that any tab requested last.
+  // Ends the wait when the model has the view that was requested last, in whichever tab.
   settle({busy, error, requested}) {
     if (busy || error || this.opened.asked) return;
     this.view = requested;

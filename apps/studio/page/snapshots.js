@@ -16,7 +16,7 @@ export function snapshotOf({input: _input, snapshots: _snapshots, options: all, 
 export const partOfSnapshot = ({name: _name, options, ...rest}) =>
   ({...rest, options: {...FIRST.options, ...options}});
 
-// Returns "Snapshot 3" if that is the first name of this kind that no snapshot has.
+// Returns a name that no snapshot has, such as "Snapshot 3". Its number is greater than the number of snapshots.
 export function freeName(snapshots) {
   const names = new Set(snapshots.map(({name}) => name));
   let number = snapshots.length + 1;

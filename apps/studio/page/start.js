@@ -16,7 +16,7 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-export const START = "#start"; // if the address of the page ends in this, it first shows the start page
+export const START = "#start"; // if its address ends in this text, the page first shows the start page
 
 // Shows the thumbnail of a document, or an icon if it has none. Returns the image element.
 function showThumbnail(image, thumbnail) {
@@ -64,7 +64,7 @@ export class Shelf {
     return make("li", {}, open, ...(this.engine.canRemove ? [make("button", remove, "×")] : []));
   }
 
-  // Removes a document. If it is the shown one, loads the page again without it.
+  // Removes a document. If the page shows that document, loads the page again without it.
   async remove(document) {
     const {engine, opened, keeper} = this, isShown = document === opened.id;
     if (isShown) opened.id = ""; // so that the document is not stored again
@@ -93,7 +93,7 @@ function inTotal({documents, bytes}, shown) {
 
 const WIDTH = 320, HEIGHT = 200;
 
-// Returns the thumbnail of a canvas, a small picture, as a data URL; "" if the canvas is empty.
+// Returns a small copy of a canvas as a data URL; "" if the canvas is empty.
 export function thumbnailOf(canvas) {
   if (canvas.width < 2) return "";
   const small = make("canvas"), context = small.getContext("2d");

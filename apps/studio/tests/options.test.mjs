@@ -37,7 +37,7 @@ const otherValue = ({choices, default: usual, min, max}) => choices ? choices.fi
   : Number((0.9 * usual + 0.1 * (usual < max ? max : min)).toFixed(2));
 
 // Options that otherValue() does not suit. `value` is a value that is not the default. If the control is shown only
-// after other options are set, `first` has these options. If it is shown only for one kind of work, `kind` names it.
+// after other options are set, `first` has these options. If it is shown only for one kind of work, `kind` is its name.
 const CASES = {
   width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
   alpha: {value: 3, first: {saturation: 0.5}}, method: {value: "paper"}, planes: {value: 0.1}, draft: {value: 12},

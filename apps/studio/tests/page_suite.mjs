@@ -13,8 +13,8 @@ export let browser, engine, page;
 
 let beginSuite; // starts the browser and everything else that the suite needs
 
-// Gives the suite a browser. begin(isAnew) prepares everything else for the tests, and may return a page that they
-// share. `isAnew` is true if the suite starts again after a failed test.
+// Gives the suite a browser. begin(isAnew) prepares everything else for the tests, and may return a page that the
+// tests share. `isAnew` is true if the suite starts again after a failed test.
 export function withBrowser(begin) {
   beginSuite = async (isAnew) => {
     browser = await found.launch();

@@ -1,5 +1,5 @@
 // Tests that each state of the page fits each screen, that all its controls can be reached, and that it breaks no rule
-// of axe.
+// of the accessibility checker axe.
 import assert from "node:assert/strict";
 import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, soon, startEngine, test,
   untilLaidOut, withBrowser} from "./page_suite.mjs";
@@ -82,8 +82,8 @@ function cut() {
     .map((it) => it.outerHTML.slice(0, 90));
 }
 
-// Runs in the page. Returns the texts smaller than 12.5 pixels, or smaller than a larger limit if the page's font is
-// larger. Texts in drawings have their stated size only after the drawing was redrawn at its new size.
+// Runs in the page. Returns the texts that are too small. The limit is 12.5 pixels if the page's font has 14.5 pixels,
+// and grows with that font. A text in a drawing has its stated size only after the drawing was redrawn at its new size.
 function small() {
   const least = 12.5 / 14.5 * parseFloat(getComputedStyle(document.documentElement).fontSize);
   const hasText = (it) => it.matches("input, select") || [...it.childNodes].some((node) =>

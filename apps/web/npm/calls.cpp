@@ -111,7 +111,7 @@ std::vector<std::byte> bytes_of_all(const auto& values) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Answers with the numbers of an array of an object.
+// Answers with the numbers that `array` returns for an object of an earlier call.
 template <typename T, auto array>
 Result<CallAnswer> numbers_of(const Json& json) {
   RELIEVO_TRY(const auto made, find<T>(json));

@@ -21,8 +21,8 @@ export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 // Returns the paths of the files that options name: the height map of a base, fonts and drawings.
 export const pathsIn = (options = {}) => [options["base-image"], ...filesIn(options)].filter(Boolean);
 
-// Returns a list of options: those of a project, those that it keeps for other kinds of pieces, and those of each of its
-// snapshots.
+// Returns a list of objects with options: those of a project, those that the project keeps for other kinds of pieces,
+// and those of each snapshot in the project.
 export const optionsIn = ({options, studio}) => [options, studio?.kept ?? {},
   ...(studio?.snapshots ?? []).map((snapshot) => snapshot.options)];
 

@@ -190,14 +190,14 @@ export class Transport {
     const main = mainOf(files), all = files.includes(main) ? files : [main, ...files];
     this.#endPreparation();
     const hash = await this.#hashOf(main);
-    // Scenes of other files with the same names have the same main file, so the bytes of all files decide.
+    // Scenes whose files have the same names have the same main file. So the hash of all files names the folder.
     const folder = all.length > 1 ? await this.#hashOf(new Blob(all)) : hash;
     return {input: await this.#keepScan(hash, main.name, all.map((file) => [file.name, file]), folder)};
   }
 
   #hashOf = async (file) => (await this.#work("hash", {path: "scan"}, [["scan", file]])).body.hash;
 
-  // Stores a scan of several files in the folder that is named after another hash than that of its main file.
+  // Stores a scan whose main file has the hash `hash`. The folder of the scan is named after `folderHash`.
   async #keepScan(hash, name, files, folderHash = hash) {
     const digits = scanOf({hash: folderHash}), folder = `scans/${digits}`;
     const scan = {digits, main: `${folder}/${name}`, files: files.map(([file, blob]) => [`${folder}/${file}`, blob])};

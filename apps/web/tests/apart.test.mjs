@@ -25,7 +25,7 @@ before(async () => {
   [solver, drawer] = [await Engine.create(module, () => {}), await Engine.create(module, () => {})];
 });
 
-// Returns the facts and the bytes of a frame that may be drawn apart.
+// Returns the facts and the bytes of a frame that the instance `drawer` may draw.
 function undrawn(request) {
   const {json, bytes} = solver.call("picture", {...request, apart: true});
   return {facts: json.facts, bytes};

@@ -24,7 +24,7 @@ std::string either(const std::vector<std::string_view>& names);
 std::unexpected<Error> not_one_of(std::string_view option, const std::vector<std::string_view>& names,
                                   std::string_view found);
 
-// Returns the words of a table in its order. Each entry has a member `name`.
+// Returns the words of a table, in the table's order. Each entry must have a member `name`.
 template <typename Table>
 std::vector<std::string_view> names_of(const Table& choices) {
   std::vector<std::string_view> names;

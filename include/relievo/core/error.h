@@ -48,7 +48,7 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return errors of kind input, option, geometry and cancelled, which any function with a Result can return.
+// Return errors of kind input, option, geometry and cancelled, for functions that return a Result.
 inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
 }
@@ -65,7 +65,7 @@ inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
-// These are macros, because a function cannot return from its caller.
+// These are macros, because a function cannot make its caller return.
 #define RELIEVO_JOIN_(a, b) a##b
 #define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
 

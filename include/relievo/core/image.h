@@ -34,7 +34,7 @@ struct Image {
   T& at(int x, int y) { return pixels[index(x, y)]; }
   const T& at(int x, int y) const { return pixels[index(x, y)]; }
 
-  // Sets the size; each side is at least 0. The values are unspecified afterwards. Reuses allocated memory.
+  // Sets the size; no side may be negative. The values are unspecified afterwards. Reuses allocated memory.
   void resize(int new_width, int new_height, int new_channels = 1) {
     width = new_width;
     height = new_height;

@@ -27,9 +27,9 @@ Result<LengthUnit> parse_unit(std::string_view name);
 
 // Returns the length in millimetres that a text describes, such as "12.5mm", "2,5cm", "4in", "4\"", "1 3/8in"
 // or "3+0.5". The text is a number, a fraction, a number with a fraction, or a sum of these. A single unit
-// may follow, with or without a space; otherwise the unit is `bare`. Numbers have a decimal point or comma.
-// "1,234" is an error, because the comma could separate thousands. The result is finite and may be negative.
-// Errors: kind option for any other text; the error's input is empty, for the caller to fill in.
+// may follow, with or without a space; a text without a unit is in `bare`. Numbers have a decimal point or
+// comma. "1,234" is an error, because the comma could separate thousands. The result is finite and may be
+// negative. Errors: kind option for any other text; the error's input is empty, for the caller to fill in.
 //
 // apps/studio/page/lengths.js is the same function in JavaScript; tests/core/lengths.json has test cases for
 // both.

@@ -37,8 +37,8 @@ void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 inline constexpr std::size_t default_grain = 4096;
 
 // Calls f(begin, end) for consecutive ranges of at most `grain` elements that together cover [0, n). The
-// ranges run concurrently, so f may write only data that belongs to its range. If f throws, some later ranges
-// are skipped, and the calling thread gets the exception; this holds for all functions below, too.
+// ranges run concurrently, so f may write only data that belongs to its range. If f throws, here or in one of
+// the parallel functions below, some later ranges are skipped, and the calling thread gets the exception.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {

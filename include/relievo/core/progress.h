@@ -17,9 +17,9 @@ struct StageTime {
   double seconds = 0;
 };
 
-// Long calls take a pointer to a Progress as their last argument. If it is null, they report nothing and
-// cannot be cancelled. Only the thread of the call may use stage() and times(); any thread may use cancel()
-// and is_cancelled() at any time.
+// Long calls take a pointer to a Progress as their last argument. A call with a null pointer reports nothing
+// and cannot be cancelled. Only the thread of the call may use stage() and times(); any thread may use
+// cancel() and is_cancelled() at any time.
 class Progress {
  public:
   // A function that is called at the start of each stage, with the stage's name and the fraction of the call

@@ -26,7 +26,7 @@ auto within_memory(const MemoryNeed& need, F&& f) -> decltype(f()) {
   try {
     return f();
   } catch (const std::bad_alloc&) {     // the memory that f allocated is free again
-  } catch (const std::length_error&) {  // thrown for a vector with more elements than it can have
+  } catch (const std::length_error&) {  // a vector would exceed its largest possible size
   }
   return std::unexpected(memory_error(need));
 }

@@ -21,7 +21,7 @@ struct SplineOptions {
   // The levels from `first_fitted` to `last_fitted` are fitted; level 0 is the coarsest. A level outside this
   // range is not fitted; it represents the function of the coarser levels on its own, finer lattice.
   int first_fitted = 0, last_fitted = 15;
-  // The damping of MultilevelSpline::fit(), in units of the mean weight of the sites, >= 0.
+  // The damping that MultilevelSpline::fit() applies, as a multiple of the mean site weight, >= 0.
   double damping = 0;
 };
 
@@ -49,7 +49,7 @@ class MultilevelSpline {
 
   MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites, all fitted functions are 0
 
-  // Prepares fits at the sites. Each site has a weight >= 0, relative to other sites near it.
+  // Prepares fits at the sites. Each site has a weight >= 0. Only the ratios of the weights matter.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
 
   // Returns the number of bytes of memory in use.
@@ -75,8 +75,8 @@ class MultilevelSpline {
   // to another spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // The values of two functions, without their means. For each position, evaluate() writes one value of
-  // function a and one of function b. It uses only the calling thread.
+  // The values of the functions a and b at given positions, without the means of these functions. The
+  // following evaluate() writes one value of each function per position, on the calling thread only.
   struct PairValues {
     std::span<float> a, b;
   };

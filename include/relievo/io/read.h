@@ -24,7 +24,7 @@ std::vector<std::string> readable_endings();
 
 // A function that returns the bytes of another file, to which the file being read refers, such as a buffer of
 // a glTF. The name is in UTF-8, relative to the folder of the file being read, and inside that folder. If the
-// function returns an error, the reader reports only that it cannot read that file.
+// function returns an error, the reader reports only that the other file cannot be read.
 using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
 
 // Returns the points in `bytes`, and the triangles if there are any. The format is recognised by the content
@@ -53,7 +53,7 @@ struct ReadOptions {
   bool keeps_doubtful = false;
 };
 
-// Reads a point cloud or mesh with these options; otherwise the same as the function above.
+// Does the same as the function above, with the given options.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
                              const ReadOptions& options);
 
@@ -61,7 +61,7 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
 // remarks.
 std::vector<std::string> remarks_on(const CloudFile& file);
 
-// Returns whether a file that begins with these bytes is a picture, an array or a table of heights.
+// Returns whether a file that begins with these bytes has one of the formats of read_depth_image().
 bool is_picture(std::span<const std::byte> bytes);
 
 // Selects the value to read from a picture with several values per pixel.
@@ -74,22 +74,22 @@ struct PictureChannels {
 //
 // - PNG: grey with 8 or 16 bits, or colours whose channels are equal. Pixels that are more transparent than
 //   opaque are missing.
-// - TIFF: grey, or colours whose channels are equal; integers of 1 to 32 or 64 bits, or floating-point
-//   numbers of 16, 32 or 64 bits; strips or tiles; any compression that libtiff supports. The first picture
-//   that is neither a thumbnail nor a mask is read, and turned as its tag Orientation says. Transparent
-//   pixels are missing, and so are values that GDAL's no-data tag states. If the file states that 0 is white,
-//   integers are inverted, so that bright pixels have large values. GeoTIFF's tags give the size of pixels,
-//   also in degrees.
+// - TIFF: grey, or colours whose channels are equal; integers of 64 bits or of 1 to 32 bits, or
+//   floating-point numbers of 16, 32 or 64 bits; strips or tiles; any compression that libtiff supports. The
+//   first picture that is neither a thumbnail nor a mask is read, and turned as its tag Orientation says.
+//   Transparent pixels are missing, and so are pixels with the value in GDAL's no-data tag. If the file
+//   states that 0 is white, integers are inverted, so that bright pixels have large values. GeoTIFF's tags
+//   give the size of pixels; a size in degrees is converted to metres.
 // - JPEG: grey, turned as the tag Orientation of Exif says. Pictures in colour are read if their channels are
 //   equal, or if `channels` asks for a channel or the luminance. CMYK is not read.
 // - NPY: a two-dimensional array of integers or floating-point numbers.
 // - PFM, PGM, PPM; BMP without compression.
 // - Esri ASCII grid, with its no-data value and the size of its cells.
 // - Text with at least 32 numbers per line, or at least 8 if neighbouring numbers are alike: a line is a row
-//   of the picture, from the top. Other words are missing values.
+//   of the picture, from the top. Words that are not numbers are missing values.
 //
-// Errors: kind input for other or broken pictures and palettes, for a missing channel, and for more than 2^27
-// pixels or fewer than 4 x 4.
+// Errors: kind input for pictures that are broken or not in this list, for a TIFF with a palette, for a
+// missing channel, and for more than 2^27 pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
                                     const PictureChannels& channels = {});
 
@@ -102,7 +102,7 @@ Result<DepthCamera> parse_camera(std::string_view text);
 // the scan is read.
 struct ScanSize {
   std::uint64_t points = 0, triangles = 0, pixels = 0;
-  // Whether the header states the size. If not, the size is estimated from the size of the file.
+  // Whether the header states these numbers. If not, they are estimated from the size of the file.
   bool is_stated = false;
 };
 

@@ -43,7 +43,7 @@ inline constexpr std::array<Choice<OrnamentKind>, 5> ornament_kinds{{{"text", Or
                                                                      {"line", OrnamentKind::line},
                                                                      {"drawing", OrnamentKind::drawing}}};
 
-// A TrueType or OpenType font. Two options compare equal only if both point to the same FontFile object.
+// A TrueType or OpenType font. Two ornaments compare equal only if both point to the same FontFile object.
 struct FontFile {
   std::string name;  // name for errors
   std::vector<std::byte> bytes;

@@ -36,7 +36,7 @@ struct HeightMapOptions {
 };
 
 struct HeightMap {
-  Image16 image;            // grey levels from 0 to the largest number of `bits` bits
+  Image16 image;            // grey levels from 0 to 2^bits - 1
   double mm_per_pixel = 0;  // size of a pixel in x and y
   double mm_per_grey = 0;   // height of one grey level
   int bits = 16;
@@ -52,15 +52,15 @@ struct HeightsMm {
 };
 
 // Returns the front of a solid as heights above the zero height (MapZero) of the options, or as depths below
-// the front's highest point. A pixel has the height of the solid's triangle at its centre, also on the
-// outline. Pixels beside the plate have the height of the front's lowest point. If only the relief is shown,
-// pixels beside it have the height of the ground. The shown part is centred in the picture. The result has no
-// pixels if the solid is empty, or if the number of pixels along a side would not be in [1, 32768].
+// the front's highest point. A pixel has the height of the solid's triangle at the pixel's centre, also on
+// the outline. Pixels beside the plate have the height of the front's lowest point. If only the relief is
+// shown, pixels beside it have the height of the ground. The shown part is centred in the picture. The result
+// has no pixels if the solid is empty, or if the number of pixels along a side would not be in [1, 32768].
 HeightsMm make_heights_mm(const Solid& solid, const HeightMapOptions& options);
 
 // Returns the heights as grey levels of 8 or 16 bits. The range of heights uses all grey levels. Heights
-// below the zero height get the grey level of the zero height. If all heights are equal, all pixels get that
-// level.
+// below the zero height get the grey level of the zero height. If no point is above the zero height, all
+// pixels get level 0.
 HeightMap grey_levels(const HeightsMm& heights, int bits = 16);
 
 // Returns the image of the map with 8 bits per grey level.

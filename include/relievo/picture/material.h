@@ -1,4 +1,4 @@
-// Defines the material of a body in a picture, and the direction of its light.
+// Defines the material of a body in a picture, and the direction of the light.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ inline constexpr std::array<Choice<Material>, 5> material_choices{{{"plaster", M
                                                                    {"porcelain", Material::porcelain}}};
 
 // The direction to the lamp, in the axes of the plate. Light comes from the upper left, because people assume
-// that light comes from there (Kleffner and Ramachandran, On the perception of shape from shading, 1992). It
-// is 30 degrees above the plate, which is low enough to distinguish the slopes of a shallow relief.
+// that light comes from there (Kleffner and Ramachandran, On the perception of shape from shading, 1992). The
+// lamp is 30 degrees above the plate, which is low enough to distinguish the slopes of a shallow relief.
 inline const Vec3f upper_left_lamp(-1, 1, .8F);
 
 }  // namespace relievo

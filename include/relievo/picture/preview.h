@@ -25,11 +25,11 @@ struct PreviewOptions {
 };
 
 // Returns a picture (3 channels) of the body on a neutral background: on the left from the front, on the
-// right obliquely. Both views equal FrameRenderer's fine picture of the same body at this size and zoom, up
-// to one grey level of rounding: lamp and sky, soft cast shadows and darkened hollows are the same. The light
-// is fixed to the plate, so both views show the same shading. Horizontal triangles are shaded flat. The
-// result has no pixels for an empty solid or a side not in [1, 5461]. It takes about 0.4 s for 700k triangles
-// on two cores.
+// right obliquely. Both views equal FrameRenderer's fine picture of the same body at the same size and zoom,
+// up to one grey level of rounding: lamp and sky, soft cast shadows and darkened hollows are the same. The
+// light is fixed to the plate, so both views show the same shading. Horizontal triangles are shaded flat. The
+// result has no pixels for an empty solid or a side not in [1, 5461]. Takes about 0.4 s for 700k triangles on
+// two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
 // Draws one solid like render_preview(). The background is transparent (opacity 0) except for the solid's

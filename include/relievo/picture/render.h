@@ -100,11 +100,11 @@ class FrameRenderer {
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 
-  // Draws the frame on a plate of any outline and base, bent around its wrap, with or without a rim, mirrored
-  // or as a die. Of the lengths in `options`, only mm_per_unit is used. There must be no ornaments, and a
-  // plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If only
-  // the height of the rim has changed since the plate was made, pictures that are not fine show the rim's old
-  // bevel. Errors: those of make_plate() and wrap_plate().
+  // Draws `shown` on a plate of any outline and base, bent around the wrap of `plate`, with or without a rim,
+  // mirrored or as a die. Of the lengths in `options`, only mm_per_unit is used. There must be no ornaments,
+  // and a plate without ground must have a plane base and no wrap. The plate is kept for the next picture. If
+  // only the height of the rim has changed since the plate was made, pictures that are not fine show the old
+  // bevel of the rim. Errors: those of make_plate() and wrap_plate().
   Result<PlacedRelief> render_on(const PlateOptions& plate, const Shown& shown, const RenderOptions& options,
                                  Picture& picture, const Progress* progress = nullptr);
 

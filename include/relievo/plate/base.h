@@ -41,13 +41,13 @@ struct BaseOptions {
   // For a fold: angle between each half and the plate. The default without height_mm is 15 degrees.
   std::optional<double> angle_deg;
   // Diameter of a cylinder or a dome. Without height_mm, the default for a cylinder is twice the plate's
-  // extent across its axis, and the default for a dome makes the dome 0.15 of the plate's radius high.
+  // extent across the cylinder's axis; the default for a dome makes the dome 0.15 of the plate's radius high.
   std::optional<double> diameter_mm;
   // For a wave: distance from crest to crest. The default is half the plate's extent across the waves, but at
   // least four times height_mm.
   std::optional<double> length_mm;
   double direction_deg = 90;  // direction of the straight lines, counter-clockwise from x; 90 is vertical
-  bool is_hollow = false;     // whether it is upside down: a valley, a trough or a bowl
+  bool is_hollow = false;     // whether the base is upside down: a valley, a trough or a bowl
   bool is_mirrored = false;   // whether left and right are swapped
   // For an image: heights in any unit.
   std::shared_ptr<const Image<float>> image;

@@ -14,8 +14,8 @@ double steepest_slope(const Solid& solid);
 // corners are rounded to single precision. The moves are only as large as this rounding requires. Returns the
 // largest move in mm, usually below 1e-5. The ground, the highest and the lowest point do not move. Errors:
 // kind geometry if no such moves are found; the solid is then unchanged. There are two causes. The front may
-// have been too steep before rounding. Or rounding makes a triangle too steep whose points are fixed or are
-// only a few units in the last place apart.
+// have been too steep before rounding. Or rounding makes a triangle too steep, and the points of this
+// triangle are fixed or are only a few units in the last place apart.
 Result<double> enforce_draft_in_float(Solid& solid, double max_slope);
 
 }  // namespace relievo

@@ -39,8 +39,9 @@ HeightFieldMesh as_die(HeightFieldMesh front);
 // points are that dark, only the darkest tenth have the largest height.
 //
 // A flat surface with colours is a picture. Its heights fall linearly from black to white, without highlights
-// and shading. The values of a picture are already close to the logarithm of its brightness, because displays
-// raise them to the power of about 2.2. Linear heights also keep dark pixels distinguishable.
+// and shading. The values of a picture already rise more slowly than its brightness, because displays raise
+// the values to the power of about 2.2, so no logarithm is taken. Linear heights also keep dark pixels
+// distinguishable.
 HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

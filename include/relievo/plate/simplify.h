@@ -18,8 +18,8 @@ struct SimplifiedMesh {
 struct SimplifyOptions {
   double tolerance_mm = .01;  // > 0
   // Limit of the slopes of new triangles, except where the front's own triangles are steeper. A triangle that
-  // is steeper than the limit must be within a millionth of a millimetre of the front. So only very thin
-  // triangles can be much steeper than the front.
+  // is steeper than the limit must be within a millionth of a millimetre of the front. So it can be much
+  // steeper than the front only if it is very thin.
   double max_slope = std::numeric_limits<double>::infinity();
   // Limit of the number of triangles. When it is reached, the error may exceed the tolerance. There may be
   // more triangles than the limit, because some points are always kept, see simplify().
@@ -34,8 +34,8 @@ struct SimplifyOptions {
 // and stays flat, because all points on its boundary are kept. If `is_relief` is given, all points on the
 // relief's rim are kept, and `is_relief` of the result is set. If the result would have more triangles than
 // the front, the front is returned unchanged. Errors: kind option for a tolerance that is not positive; kind
-// geometry for a front without triangles, or whose triangles are not a Delaunay triangulation up to rounding,
-// so that they do not cover their hull; kind cancelled.
+// geometry for a front without triangles, and for triangles that do not cover their hull, because they are
+// not a Delaunay triangulation up to rounding; kind cancelled.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
                                 Progress* progress = nullptr);
 

@@ -114,8 +114,8 @@ Solid in_unit(Solid solid, LengthUnit unit);
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
 // bevel wider than its rim, a rim or ornaments with the outline `none`, or ornaments without sufficient
-// space; kind geometry for an empty front, a front with triangles whose corners are missing or not finite, or
-// a front without relief with the outline `none`. Time: O(n log n), 0.1 s for 340k points.
+// space; kind geometry for an empty front, a front with triangles whose corners are missing or not finite,
+// or, with the outline `none`, a front without relief. Time: O(n log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
 // Returns the base that make_plate() uses under the front, in the front's coordinates. Errors: those of

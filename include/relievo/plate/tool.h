@@ -32,8 +32,8 @@ Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm)
 // Returns the tool as a text that parse_tool() reads, in millimetres.
 std::string text_of(const Tool& tool);
 
-// Returns the height of the tool's surface above its lowest point, in mm, at that distance from its axis;
-// infinity beyond the tool's radius.
+// Returns the height in mm of the tool's surface above the tool's lowest point, at the distance `distance_mm`
+// from the tool's axis; infinity beyond the tool's radius.
 double tool_profile(const Tool& tool, double distance_mm);
 
 // Returns the lowest surface that the tool can leave without cutting below the height of any sample: the

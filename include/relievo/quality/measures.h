@@ -1,5 +1,5 @@
-// Measures how much of its model a relief shows, and its faults. docs/quality.md defines each measure and
-// gives its source.
+// Measures how much of the model a relief shows, and the faults of the relief. docs/quality.md defines each
+// measure and gives its source.
 #pragma once
 
 #include <array>
@@ -52,7 +52,7 @@ class ReliefMetrics {
   // pixel is far enough from silhouette and jumps; correlations with a constant are 0.
   Measures measure(std::span<const double> heights) const;
 
-  // Returns only Measures::shading, in a fraction of the time. Level heights are allowed.
+  // Returns only Measures::shading, in a fraction of the time. The heights may all be equal.
   double shading(std::span<const double> heights) const;
 
   // Returns the number of measured pixels.

@@ -1,5 +1,5 @@
-// Finds the best reliefs of the baselines: each relief uses the parameters of a grid that give it the best
-// shading. The program's command `compare` and docs/quality.md show these reliefs. Methods with the same
+// Finds the best relief of each baseline: the one with the best shading among the reliefs for all parameters
+// in a grid. The program's command `compare` and docs/quality.md show these reliefs. Methods with the same
 // names as baselines have fixed parameters.
 #pragma once
 
@@ -23,7 +23,7 @@ std::vector<std::string_view> compared_methods();
 
 struct TunedRelief {
   Relief relief;
-  // Parameters of the grid, such as "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none.
+  // Parameters of the relief, such as "attenuation 5, bands 1 1 0.8 0.6"; empty if the baseline has none.
   std::string parameters;
   double shading = 0;  // Measures::shading
 };
@@ -34,10 +34,10 @@ struct BaselineInput {
   const ReliefMetrics& metrics;
 };
 
-// Returns the relief of the baseline's grid with the best shading. `name` is one of baseline_names();
-// `system` is the system of all points of the surface. Errors: kind geometry if the baseline's relief is flat
-// and cannot be scaled. Messages give heights in millimetres; `unit_mm` is the number of millimetres per unit
-// of the surface.
+// Returns the relief with the best shading among the reliefs for all parameters in the baseline's grid.
+// `name` is one of baseline_names(); `system` is the system of all points of the surface. Errors: kind
+// geometry if the baseline's reliefs are flat and cannot be scaled. Messages give heights in millimetres;
+// `unit_mm` is the number of millimetres per unit of the surface.
 Result<TunedRelief> best_baseline(std::string_view name, const BaselineInput& input, double height,
                                   double unit_mm);
 

@@ -12,8 +12,8 @@ namespace relievo {
 // Returns the slope (rise over run) of a wall whose angle to the vertical is `draft_deg`, in (0, 90) degrees.
 double slope_at_draft(double draft_deg);
 
-// Slopes are reduced to at most this share of the limit, so that the rounding in all later steps cannot
-// exceed the limit.
+// Slopes are reduced to at most this share of the limit, so that rounding in later steps cannot raise a slope
+// above the limit.
 inline constexpr double kept_slope = .999;
 
 struct DraftOptions {
@@ -34,8 +34,8 @@ struct DraftOrder {
 // Returns the relief nearest to `relief` that has no triangle steeper than the limit. Nearest means that the
 // squared slope changes, summed over all triangles, are smallest. In this sum, slopes above twice the limit
 // count as twice the limit. Boundary points stay on the base. A relief within the limit is returned
-// unchanged, bit for bit. The slopes of any other relief are reduced to a thousandth below the limit, so that
-// it also satisfies the limit in single precision. Takes about 0.5 s for 160k points. Errors: kind geometry
+// unchanged, bit for bit. Any other relief gets slopes of at most 0.999 times the limit, so that the relief
+// satisfies the limit in single precision, too. Takes about 0.5 s for 160k points. Errors: kind geometry
 // if the base alone is steeper than the limit; those of HeightSystem::build(); kind cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);

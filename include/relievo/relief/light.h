@@ -15,9 +15,9 @@ struct LightDirection {
   bool operator==(const LightDirection&) const = default;
 };
 
-// Parameters of a relief for one light. Its slopes along the light's azimuth are chosen so that its shading
-// is the sum of two parts: the shading of the level plate, and `contrast` times the model's local contrast of
-// shading. Slopes across the azimuth do not change.
+// Parameters of a relief for one light. The slopes along the light's azimuth are chosen so that the relief's
+// shading is the sum of two parts: the shading of the level plate, and `contrast` times the model's local
+// contrast of shading. Slopes across the azimuth do not change.
 struct ReliefLight {
   LightDirection from;
   double contrast = .8;  // [0, 1]; with 0 the model's shading is ignored

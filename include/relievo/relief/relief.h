@@ -49,8 +49,8 @@ class ReliefModel {
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr,
                                      const ModelOptions& options = {});
 
-  // Returns the model of the surface that the view shows. For a view of Method::paper it has only the system
-  // of paper(). Errors: those of find_surface() and prepare().
+  // Returns the model of the surface that the view shows. For a view of Method::paper, the model has only the
+  // system of paper(). Errors: those of find_surface() and prepare().
   static Result<ReliefModel> of_view(const MeasuredCloud& measured, const View& view,
                                      const ModelOptions& options, Progress* progress = nullptr);
 
@@ -121,7 +121,7 @@ class ReliefModel {
 };
 
 // Changes the heights of those models of a scene for which Pose::height requests a height. This is the last
-// step of a relief. ReliefModel does it itself; baselines need this call.
+// step of a relief. ReliefModel includes this step; baselines need this call.
 void give_own_heights(const ReliefModel& model, Relief& relief);
 
 }  // namespace relievo

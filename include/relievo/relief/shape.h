@@ -14,10 +14,10 @@ struct Stroke;
 class ToneCurve;
 
 enum class Style {
-  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), it applies
-  // the paper's rules to our points and edges. Coarse reliefs of a turned model and the reference heights of
-  // SubspaceModel are made in this way. Models of Method::paper make their reliefs by ReliefModel::paper(),
-  // for either style.
+  // Uses equations (5) to (7), and adds detail to the heights. For a surface from find_surface(), this style
+  // applies the paper's rules to our points and edges. Coarse reliefs of a turned model and the reference
+  // heights of SubspaceModel are made in this way. Models of Method::paper make their reliefs by
+  // ReliefModel::paper(), whichever style is given.
   paper_weights,
   layered  // compresses normals layer by layer, and fine layers least; compresses heights by HeightCorrection
 };
@@ -28,7 +28,7 @@ struct Compression {
   double u = 1;  // [0, infinity]; 0: flat; infinity: normals unchanged (if beta > 0, only where k is not 0)
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points equally
   // If set, the curve replaces the exponential of equation (6): w_k = 1 - (1 - curve(|k|))^u. So u still
-  // determines the height; at u = 1, w_k is the value of the curve. Beta then has no effect.
+  // determines the height; at u = 1, w_k is the value of the curve. With a curve, beta has no effect.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
   // Curves are equal if they have the same points.

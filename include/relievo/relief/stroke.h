@@ -12,7 +12,7 @@
 
 namespace relievo {
 
-// The change that a stroke makes to the heights z under it. Every brush adds a field to z that is 0 outside
+// The change that a stroke makes to the heights z under it. Every brush adds to z a field that is 0 outside
 // of the stroke, so other heights do not change. The blurs are Gaussian, along the surface, and do not cross
 // depth jumps. `protect` is an error in a scene in which a model has its own height.
 enum class Brush {
@@ -41,7 +41,7 @@ inline constexpr std::array<Choice<Brush>, 8> brushes{{{"strengthen", Brush::str
 enum class StrokeArea {
   line,  // the points within the radius of a line
   // The points inside a closed line, seen in the direction in which the line was drawn. Points that are
-  // behind the line by more than half of the line's longer side are left out.
+  // behind the line by more than half of the longer side of the line's bounding box are left out.
   lasso,
   region  // the points around a single point, as far as the surface turns less than the tolerance
 };
@@ -49,7 +49,7 @@ enum class StrokeArea {
 inline constexpr std::array<Choice<StrokeArea>, 3> stroke_areas{
     {{"line", StrokeArea::line}, {"lasso", StrokeArea::lasso}, {"region", StrokeArea::region}}};
 
-// Standard deviations of the two blurs, as shares of the longer side.
+// Standard deviations of the two blurs, as shares of the surface's longer side.
 inline constexpr double narrow_blur = .008, wide_blur = .03;
 
 // A line or an area on the model, and the change there. A stroke is fixed to the model: in other views it is

@@ -48,7 +48,7 @@ struct SlopeInput {
   std::span<const float> boundary_weight;    // w_b of equation (7)
   double delta = 0;                          // standard deviation of |k|
   std::span<const PointLayers> layers = {};  // only for the layered style
-  std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without one
+  std::span<const float> contrast = {};      // local_contrast() of the shape's light; empty without a light
   std::span<const std::uint16_t> attention =
       {};  // the result of levels_of(); empty if the shape has no attention
 };

@@ -28,7 +28,7 @@ struct Cloud {
   std::vector<OutlineSegment> outlines = {};
   // Whether no point hides another point from a viewer on the +Z side, as in a depth image.
   bool is_height_field = false;
-  // For each point: Pose::height of its model in the scene, or 0 without one. Empty if no model has one.
+  // For each point: Pose::height of its model, or 0 if that is not given. Empty if no model has a height.
   std::vector<float> own_heights = {};
   // If the points are from a depth image: the ratio of z, seen from +Z, to the image's values. It is negative
   // if values increase away from the viewer, and 0 if z is not proportional to them.
@@ -56,7 +56,7 @@ std::vector<Index> outliers(const Cloud& cloud);
 // and colours are the means of the group.
 Cloud without_repeated_points(Cloud cloud);
 
-// Returns the cloud without the points whose indices are in `erased`, in ascending order.
+// Returns the cloud without the points whose indices are in `erased`, which must be in ascending order.
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased);
 
 }  // namespace relievo

@@ -54,7 +54,7 @@ inline constexpr std::array<Choice<DepthValues>, 5> depth_value_choices{
      {"auto", DepthValues::automatic}}};
 
 // Whether a part of a depth image that is often unwanted (background or blur) is kept or dropped. With
-// `automatic`, the kind of image determines this.
+// `automatic`, the kind of image determines whether the part is kept.
 enum class Removal { keep, drop, automatic };
 
 inline constexpr std::array<Choice<Removal>, 3> removal_choices{
@@ -97,8 +97,8 @@ struct DepthCloud {
   std::size_t background = 0;  // number of points removed with the background
   std::size_t blur = 0;        // number of points removed as blur
   double noise = 0;            // median uncertainty of a depth, in pixels
-  // One value per block of reduction x reduction pixels. The kept pixels are the points, in this order. For a
-  // picture from picture_cloud(), missing pixels are points, too.
+  // One value per block of reduction x reduction pixels. The points of `cloud` are the kept pixels, in the
+  // order of `uses`. For a picture from picture_cloud(), missing pixels are points, too.
   Image<PixelUse> uses;
 };
 

@@ -30,8 +30,8 @@ struct Mesh {
 // Triangles without area have zero normals.
 std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg = 45);
 
-// Returns the corner normals for interpolation. These are the mesh's own normals. If it has none, or only the
-// normals of its flat triangles, they are smooth_normals().
+// Returns the corner normals for interpolation: the mesh's own normals, or smooth_normals() if the mesh has
+// none or only the normals of its flat triangles.
 std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh);
 
 struct MeshSampling {
@@ -44,9 +44,9 @@ Result<void> check_points(double points);
 
 // Returns the visible points of the mesh, in its axes: one at the centre of each pixel of a square grid over
 // the view, with interpolated normals (see normals_to_show()) and colours. Further points are on the outline
-// between pixels, which makes it smoother than the grid. Triangles are visible from both sides, and all
-// normals face the viewer. Errors: kind geometry if nothing is visible in this view; kind option for a number
-// of points out of range; kind cancelled.
+// between pixels, so that the outline is smoother than the grid. Triangles are visible from both sides, and
+// all normals face the viewer. Errors: kind geometry if nothing is visible in this view; kind option for a
+// number of points out of range; kind cancelled.
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options = {},
                           Progress* progress = nullptr);
 

@@ -18,9 +18,9 @@ class Cholesky {
  public:
   struct Factor;
 
-  // Scratch memory of solves: about 5 floats per unknown, plus 2 doubles from the first solve in double
-  // precision on. A workspace belongs to the factorisation that made it, which must outlive it. Only one
-  // solve at a time may use it.
+  // Scratch memory of solves: about 5 floats per unknown, plus 2 doubles per unknown from the first solve in
+  // double precision on. A workspace belongs to the factorisation that made it, which must outlive the
+  // workspace. Only one solve at a time may use a workspace.
   class Workspace {
    public:
     Workspace(Workspace&&) noexcept;

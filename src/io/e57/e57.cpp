@@ -151,7 +151,8 @@ class ScanParser {
     return {};
   }
 
-  // Returns the number in a grandchild of the scan, or `unset` if there is none. An empty element means 0.
+  // Returns the number in the element named `child` within element `parent`; `unset` if there is none. An
+  // empty element means 0.
   double number_in(std::size_t parent, std::string_view child, double unset) const {
     const std::size_t element = parent == 0 ? 0 : find_child(elements_, parent, child);
     if (element == 0) return unset;

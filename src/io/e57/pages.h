@@ -1,6 +1,6 @@
 // Reads the pages of an E57 file, which are blocks of 1,024 bytes. The last four bytes of a page are a
-// checksum. Physical offsets, which the file uses, count the checksums; logical offsets and lengths do not
-// count them.
+// checksum. Physical offsets, which the file uses, include the checksums; logical offsets and lengths do not
+// include them.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ struct E57Pages {
 Result<void> read_e57_pages(const Source& source, E57Pages& pages);
 
 // The numbers of an E57 file are stored as follows. A CompressedVector section is a sequence of packets. Each
-// packet has a part of every column; its numbers are packed bit by bit.
+// packet has a part of every column. The numbers of a column are packed bit by bit.
 
 // A column of numbers, and how they are packed.
 struct PackedColumn {

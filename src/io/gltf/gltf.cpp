@@ -149,8 +149,8 @@ class GltfReader {
     return {};
   }
 
-  // Visits each node once. In a valid file each node has at most one parent; in an invalid file this prevents
-  // endless loops.
+  // Visits each node only once, which prevents endless loops in invalid files. In a valid file each node has
+  // at most one parent.
   Result<void> walk_nodes(const std::vector<std::size_t>& first) {
     std::vector<Visit> open;
     for (const std::size_t i : first) open.push_back({i, Transform::Identity()});

@@ -162,7 +162,8 @@ Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::s
   return bytes.substr(*start, *length);
 }
 
-// The extension of a compressed view names the buffer of its bytes. The view's own buffer may be missing.
+// The extension of a compressed view names the buffer with the compressed bytes. The buffer that the view
+// itself names may be missing.
 Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place) {
   const Json* json = element("bufferViews", i);
   if (!json) return source_->error(place, "expected a bufferView, found none");

@@ -19,13 +19,13 @@ constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// A two-bit code for how version 1 stores the differences of one byte position in a block.
+// A two-bit code of version 1. It says how the differences at one byte position of a block are stored.
 enum class Control : std::uint8_t { narrow, wide, all_zero, literal };
 
 using Group = std::array<std::uint8_t, group_size>;
 
-// Reads the differences of a group. If all bits of a difference are set, a separate byte follows with the
-// difference.
+// Reads the differences of a group. If all bits of a stored difference are set, the actual difference follows
+// in a separate byte.
 Group next_differences(MeshoptBytes& from, unsigned bits) {
   Group differences{};
   if (bits == 0) return differences;
@@ -73,8 +73,8 @@ std::uint32_t number_of(const ChannelBytes& bytes) {
 }
 
 // Computes a channel of the next element from the same channel of the previous element. In mode 0,
-// `differences` are four differences of bytes. In mode 1 they are two differences of 16-bit words. Otherwise
-// they are bits to flip, after a rotation to the left by the mode's upper four bits.
+// `differences` are four differences of bytes. In mode 1 they are two differences of 16-bit words. In other
+// modes they are bits to flip, after a rotation to the left by the mode's upper four bits.
 void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last) {
   if (mode == 0) {
     for (std::size_t i = 0; i < channel_size; ++i)
@@ -93,8 +93,8 @@ void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last
   for (std::size_t i = 0; i < channel_size; ++i) last[i] = static_cast<std::uint8_t>(now >> 8 * i);
 }
 
-// A stream of attributes: a header, blocks of elements, and a tail. The tail contains an element that
-// precedes the first one and, in version 1, the mode of each channel.
+// A stream of attributes: a header, blocks of elements, and a tail. The tail contains the element from which
+// the differences of the first one are counted and, in version 1, the mode of each channel.
 class Attributes {
  public:
   // Returns nothing if the header or a mode is not in the specification, or if the tail is truncated.

@@ -115,9 +115,9 @@ void RunningMedian::add(std::int32_t value) {
   const bool goes_below = replaces_highest_ && value < v[2], goes_above = !replaces_highest_ && v[2] < value;
   if (goes_below || goes_above) {
     // If the highest value is to be replaced, but the new value is below the median: removes the highest
-    // value, moves the median and the value above it one place up, and inserts the new value below them. If
-    // the lowest value is to be replaced, but the new value is above the median: does the same in the
-    // opposite direction. The next new value replaces a value at the same end.
+    // value, moves the median and the value above the median one place up, and inserts the new value below
+    // the median. If the lowest value is to be replaced, but the new value is above the median: does the same
+    // in the opposite direction. The next new value replaces a value at the same end.
     if (goes_below) std::copy_backward(v + 2, v + 4, v + 5);
     if (goes_above) std::copy(v + 1, v + 3, v);
     if (goes_below) {

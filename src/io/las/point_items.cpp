@@ -297,9 +297,9 @@ void LayeredPoint::decode_class(Channel& channel) {
   if (flags_) channel.flags = symbol_of(channel.flag_sets[channel.flags], *flags_, 64);
 }
 
-// In version 3, a point's colour belongs to scanner 0, unless the scanner changes at this point. If the new
-// scanner already has colours, the stored difference is from the last colour of the previous scanner. The
-// decoded colour then replaces that last colour.
+// In version 3, a point's colour belongs to scanner 0, unless the scanner changes at this point. If the
+// previous colour belongs to another scanner, and the new scanner already has colours, the stored difference
+// is from the previous scanner's last colour, which the decoded colour then replaces.
 void LayeredPoint::decode_colour(bool changes_scanner) {
   const std::size_t scanner = are_colours_mixed_ && !changes_scanner ? 0 : channel_;
   LazColour* last = &colour_channels_[colour_channel_]->last;

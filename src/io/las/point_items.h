@@ -55,7 +55,7 @@ class ColourItem : public PointItem {
   ColourModels models_;
 };
 
-// Decodes the first 20 bytes of a point, such as coordinates, intensity and returns.
+// Decodes the first 20 bytes of a point, which include the coordinates, the intensity and the returns.
 class PositionItem : public PointItem {
  public:
   void start(const char* raw) override;

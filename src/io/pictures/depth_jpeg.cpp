@@ -17,10 +17,11 @@ namespace relievo::io {
 namespace {
 
 // A scan is a pass over the picture in a progressive JPEG. Cameras and programs write at most some tens of
-// scans. Broken files may have thousands, and each takes as much time as decoding the whole picture.
+// scans. Broken files may have thousands, and each scan takes as much time as decoding the whole picture.
 constexpr int most_scans = 100;
 
-// After an error, libjpeg must not return. It jumps back into decode(), where no object has a destructor.
+// libjpeg requires that its error handler does not return. So leave() jumps back into decode(), where no
+// object has a destructor.
 struct Decoder {
   // Must be the first member, so that libjpeg's pointers to it are pointers to the Decoder.
   jpeg_decompress_struct jpeg;

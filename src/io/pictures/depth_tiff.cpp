@@ -254,8 +254,8 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
-// Terrain models store the lowest single-precision number where the height is unknown. Not all of these files
-// have GDAL's tag.
+// Values below this one are missing heights. Terrain models store the lowest single-precision number where
+// the height is unknown, and not all of these models have GDAL's tag.
 constexpr float lowest_height = -1e38F;
 
 // Inverts the values if 0 is white in this file, and replaces missing values by NaN.

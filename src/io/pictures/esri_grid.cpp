@@ -79,8 +79,9 @@ Result<void> check_header(const Source& source, GridHeader& header) {
                               " bytes; the file is cut, get it anew"));
 }
 
-// Returns whether the cells are given in degrees: the corner is a position on the globe, and the heights, in
-// metres, would be far too large for the grid's width. The format has no entry for units.
+// Returns whether the cells are probably given in degrees; the format has no entry for units. This is so if
+// the corner is a position on the globe, and the range of the heights, in metres, would be far too large for
+// the grid's sides.
 bool has_degrees(const GridHeader& header, const Image<float>& heights) {
   const bool is_on_globe = std::abs(header.corner.x()) <= 360 && std::abs(header.corner.y()) <= 90 &&
                            header.corner.y() + header.rows * header.cell.y() <= 90;

@@ -25,8 +25,8 @@ std::span<const T> numbers_of(TIFF* tiff, std::uint32_t tag, TIFFDataType type) 
   return {numbers, count};
 }
 
-// Returns the value of a key. The key directory begins with four numbers; then there are four numbers per
-// key: its number, the tag with its value, the number of values, and the value if there is no tag.
+// Returns the value of a key. The key directory begins with four numbers. Then there are four numbers for
+// each key: the key, the tag with the value, the number of values, and the value if there is no tag.
 std::uint16_t value_of_key(TIFF* tiff, std::uint16_t key) {
   const auto keys = numbers_of<std::uint16_t>(tiff, keys_tag, TIFF_SHORT);
   for (std::size_t i = 4; i + 4 <= keys.size(); i += 4)

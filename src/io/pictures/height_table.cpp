@@ -29,8 +29,9 @@ bool has_numbers(std::string_view line) {
   return count >= enough_numbers;
 }
 
-// Returns whether the line is a row of the table: it has as many fields as a row, or one less if the last one
-// is empty. To exclude names of columns, some fields must be numbers, or all fields must be the same.
+// Returns whether the line is a row of the table: it has as many fields as the layout has columns, or one
+// less if the line ends with a separator. To exclude names of columns, some fields must be numbers, or all
+// fields must be the same.
 bool is_row(std::string_view line, const XyzLayout& layout) {
   Fields fields(line, layout.separator);
   std::string_view first;
@@ -102,8 +103,8 @@ std::optional<XyzLayout> find_table_behind_words(const Source& source) {
 }
 
 // Removes the row above the table that numbers the columns, and the column on the left that numbers the rows,
-// as spreadsheets and pandas write them. If the corner between them is empty, they may also be coordinates at
-// equal distances; these distances become the size of pixels.
+// as spreadsheets and pandas write them. If the corner between them is empty, the labels may also be
+// coordinates at equal distances, instead of numbers; these distances become the size of pixels.
 void drop_labels(DepthImage& table) {
   Image<float>& values = table.values;
   const auto columns = static_cast<std::size_t>(values.width), rows = static_cast<std::size_t>(values.height);

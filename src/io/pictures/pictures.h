@@ -58,7 +58,8 @@ struct StoredPixels {
 // Returns an error if there are too many pixels, or more than the file contains.
 Result<void> check_room(const Source& source, const StoredPixels& stored);
 
-// Returns an error if the file is smaller than best_packing allows for pixels that take so many bytes.
+// Returns an error if `bytes`, the size of the unpacked pixels, exceeds best_packing times the size of the
+// file.
 Result<void> check_packing(const Source& source, std::uint64_t pixels, std::uint64_t bytes);
 
 // Red, green and blue of a pixel; in a grey picture only the first value is used.

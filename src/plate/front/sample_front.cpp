@@ -150,8 +150,8 @@ class Sampler {
   }
 
   // Divides each edge of the smooth triangles in the band near creases. All edges get the same number of
-  // parts, so that the median part is about as long as the resolution. New points on creases stay on the
-  // creases.
+  // parts; with this number the median part is about as long as the resolution. New points on creases stay on
+  // the creases.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -238,7 +238,7 @@ class Sampler {
     std::optional<SampleGrid> quarters;
     if (std::ranges::any_of(squares, &SampleSquare::is_quartered))
       quarters = sample_grid(front_, grid_.step / 2, 2 * largest_square);
-    // This is false for very large fronts, because sample_grid() makes coarser grids for them.
+    // `has_quarters` is false for very large fronts, because sample_grid() makes coarser grids for them.
     const bool has_quarters = quarters && quarters->step == grid_.step / 2;
     for (const SampleSquare& square : squares) {
       if (square.is_quartered && has_quarters)

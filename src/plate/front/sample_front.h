@@ -44,9 +44,10 @@ constexpr int largest_square = 8;
 // squares differ in size by at most a factor of two.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
-// Turns diagonals of a Delaunay triangulation whose points lie on a grid. In each rectangle, either diagonal is
-// Delaunay; arbitrary ones look like teeth across a ridge. Chooses the diagonal along which the slope changes less,
-// unless the slope of a corner is NaN. Only the triangles are updated; the mesh's neighbours become invalid.
+// Turns diagonals of a Delaunay triangulation whose points lie on a grid. In each rectangle, both diagonals
+// are Delaunay; an arbitrary choice would make ridges jagged. Chooses the diagonal along which the slope
+// changes less, unless the slope of a corner is NaN. Only the triangles are updated; the mesh's neighbours
+// become invalid.
 void turn_diagonals(std::span<const Vec2> points, std::span<const Vec2f> slopes, Triangulation& mesh);
 
 }  // namespace relievo

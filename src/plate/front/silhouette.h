@@ -25,8 +25,9 @@ std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const Heig
                                         std::span<const Index> original);
 
 // Returns the relief without its ground. The result has the triangles and points in the given order, but no
-// hull. Parts that are connected only by a corner are separated by removing triangles, because their walls
-// would share an edge. Connected parts of less than a thousandth of the relief's area are removed, too.
+// hull. If parts are connected only by a corner, their walls would share an edge; so these parts are
+// separated by removing triangles. Connected parts of less than a thousandth of the relief's area are
+// removed, too.
 HeightFieldMesh relief_alone(const HeightFieldMesh& front);
 
 }  // namespace relievo

@@ -48,8 +48,8 @@ std::vector<Edge> edges_of(const HeightFieldMesh& front) {
   return edges;
 }
 
-// An edge of the original begins in one triangle of the approximation. Lists the triangles that it enters
-// after that one. If they are more than three, the last entry is `unknown`.
+// Lists the triangles of the approximation that an edge of the original enters after the one in which it
+// begins. If there are more than three, the last entry is `unknown`.
 using Passed = std::array<Index, 3>;
 constexpr Index unknown = no_index - 1;
 

@@ -8,11 +8,11 @@
 namespace relievo {
 
 // Flips the longest edge of triangles that, seen from above, are hardly wider than the rounding of
-// coordinates to single precision. Rounding could turn such triangles over or leave them without area. They
-// arise where points of a hull are almost collinear. The solid must have only its front, without walls. A
-// steep triangle whose flip would change the surface much is kept, unless rounding turns it over. If
-// `may_lose_edges`, triangles whose longest edge is on the front's boundary are removed, together with points
-// that become unused. Returns the largest change of the surface in z.
+// coordinates to single precision. Rounding could turn such triangles over or leave them without area. Such
+// triangles arise where points of a hull are almost collinear. The solid must have only its front, without
+// walls. A steep triangle whose flip would move the surface too far in z is kept, unless rounding turns it
+// over. If `may_lose_edges`, triangles whose longest edge is on the front's boundary are removed, together
+// with points that become unused. Returns the largest change of the surface in z.
 double flip_thin_triangles(Solid& front, bool may_lose_edges = false);
 
 // Returns the front's triangles that, seen from above, are not counter-clockwise after their coordinates are

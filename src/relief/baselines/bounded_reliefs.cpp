@@ -24,7 +24,8 @@ struct Sheet {
   bool is_flat = false;                   // true: elements are measured in the view plane; false: in space
 };
 
-// Half the cotangents of a triangle's angles, reduced for needles by needle_share(), and the triangle's area.
+// The area of a triangle, and half the cotangents of its angles. If an angle is very small, needle_share()
+// reduces the half cotangents.
 struct Element {
   std::array<double, 3> half_weight;
   double area;
@@ -108,7 +109,8 @@ Result<std::vector<double>> solved(SheetFit sheet, double height) {
 }
 
 // Sets the heights of free points that belong to no triangle of the sheet. Such a point shares triangles of
-// the surface with points that have unknowns. It gets the height of the one that is nearest in depth.
+// the surface with points that have unknowns. It gets the height of the one of these points that is nearest
+// in depth.
 void fill_between(const Surface& surface, const std::vector<Index>& unknown, std::vector<double>& heights) {
   const std::vector<std::uint8_t>& is_fixed = surface.boundary.is_boundary;
   std::vector<double> nearest(heights.size(), std::numeric_limits<double>::infinity());

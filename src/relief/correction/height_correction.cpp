@@ -22,15 +22,16 @@ constexpr double cell_size = .007, least_cell_size = 2;
 // would then be singular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Nodes are free if their coverage is above `least_coverage`. They have a lower limit if their coverage is
-// above `limited_coverage`. Nearer to the silhouette, heights rise steeply, so the limits of neighbouring
-// nodes would differ widely. There, ties (springs along the silhouette) hold the field instead.
+// Nodes are free if their coverage is above `least_coverage`. The field has a lower limit at nodes whose
+// coverage is above `limited_coverage`. Nearer to the silhouette, heights rise steeply, so the lower limits
+// of neighbouring nodes would differ widely. There, ties (springs along the silhouette) hold the field
+// instead.
 constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
 // The least tension, as a share of the tension inside the silhouette. With this tension, the field continues
 // smoothly outside the silhouette.
 constexpr float least_tension = .1F;
-// The stiffness of a tie is `tie_per_cell` times the length of silhouette in its cell, in cell widths. The
-// unit of stiffness is the tension across a cell.
+// The stiffness of a tie is `tie_per_cell` times the length of the silhouette within the tie's cell, in cell
+// widths. The unit of stiffness is the tension across a cell.
 constexpr float tie_per_cell = .8F;
 // Parameters of the forces that keep nearer parts higher than farther parts beside them (near order,
 // docs/decisions/near-order.md). `pair_distances` are the distances of paired nodes, as shares of the longer
@@ -150,9 +151,10 @@ std::size_t HeightCorrection::Workspace::memory() const {
   return sum;
 }
 
-// Returns limits whose boundary stiffness depends on the height share. It is 1 at a height share of 1, falls
-// linearly to 0.3 at 0.825, and stays there. Strong compression needs all of the height, so the relief may
-// then stand off the base at the silhouette (docs/decisions/height-correction.md).
+// Returns limits whose boundary stiffness depends on the height share. The stiffness is 1 at a height share
+// of 1, falls linearly to 0.3 at a height share of 0.825, and is 0.3 below that. Strong compression needs all
+// of the height, so the relief may then stand off the base at the silhouette
+// (docs/decisions/height-correction.md).
 HeightLimits HeightLimits::of(double height, const Shape& shape) {
   constexpr double least = .3, fall = 4;
   return {height, std::max(1 - fall * (1 - height_share(shape)), least), shape.planes};

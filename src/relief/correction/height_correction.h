@@ -30,8 +30,8 @@ struct HeightLimits {
 // b is given at the nodes of a lattice with cells of 0.7 % of the longer side, or wider cells if points are
 // sparse. The limits at the nodes leave room for the heights between them. The energy pulls near parts in
 // front of farther parts beside them (near order). Along the silhouette, springs (solver::Tie) pull b to 0,
-// and keep it above HeightLimits::planes of the height. The lattice continues beyond the silhouette, so that
-// b does not depend on the position of the silhouette between nodes.
+// and stiffer springs raise b where it is below the share HeightLimits::planes of the height. The lattice
+// continues beyond the silhouette, so that b does not depend on the position of the silhouette between nodes.
 //
 // Const calls may run concurrently if each has its own workspace. Results are the same bits for any number of
 // threads.
@@ -60,8 +60,8 @@ class HeightCorrection {
   std::size_t memory() const;
 
   // Finds b for heights, one per point, and stores it in the workspace. Because b is smooth, a few points may
-  // stay slightly outside the limits. If the heights around a node span more than the height limit, they
-  // exceed both limits by the same amount. Instantiated for float and double.
+  // stay slightly outside the limits. If the heights around a node span more than the height limit, the
+  // corrected heights exceed both limits by the same amount. Instantiated for float and double.
   template <typename Real>
   void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
 

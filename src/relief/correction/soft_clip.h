@@ -70,7 +70,8 @@ class SoftClip {
         1 << 15);
   }
 
-  // Returns how many bins, counted from `begin`, contain `wanted` points; the last bin counts in part.
+  // Returns the number of bins, counted from `begin`, that together contain `wanted` points; the last bin
+  // counts in part.
   template <typename It>
   static Real bins_from_end(It begin, It end, double wanted) {
     double sum = 0;

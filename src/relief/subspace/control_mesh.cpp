@@ -88,9 +88,9 @@ std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boun
   return is_fixed;
 }
 
-// Returns a value proportional to the area of each point in the view plane. It is 6 times a third of the area
-// of the point's triangles inside the relief. Where the surface is steep, scans have more points per area of
-// the view plane. So an unweighted mean over points would give slopes that are too steep.
+// Returns a value proportional to the area of each point in the view plane: twice the area of the point's
+// triangles inside the relief. Where the surface is steep, scans have more points per area of the view plane.
+// So an unweighted mean over points would give slopes that are too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (const Triangle corners : triangles_inside(surface)) {

@@ -8,9 +8,9 @@ namespace relievo {
 namespace {
 
 // A contact is a pair of neighbouring pixels of different parts. A background covers at least the share
-// `least_border` of the image's border. Of its contacts with the figure, at least the share `least_jumps` are
-// depth jumps. If more than the share `most_missing` of the figure's contacts are with missing pixels, these
-// pixels are its background.
+// `least_border` of the image's border. Of the contacts between background and figure, at least the share
+// `least_jumps` are depth jumps. If more than the share `most_missing` of the figure's contacts are with
+// missing pixels, the missing pixels are the figure's background.
 constexpr double least_border = .5, least_jumps = .9, most_missing = .5;
 constexpr double least_figure_share = .01;  // share of the image; smaller figures are specks
 // Outlines may be blurred over `widest_outline` points. The slope across a jump is at least `steeper` times
@@ -44,8 +44,8 @@ class Parts {
     });
   }
 
-  // Returns the grid points of all rear parts. A part is rear if it lies behind its neighbours, and touches the
-  // image's border or is no nearer to the viewer than the largest of the rear parts at the border.
+  // Returns the grid points of all rear parts. A part that lies behind its neighbours is rear in two cases:
+  // it touches the image's border, or it is no nearer to the viewer than the largest rear part at the border.
   GridMask rear() const {
     std::vector<std::uint8_t> is_rear(all_.size(), 0);
     float nearest = -std::numeric_limits<float>::infinity();
@@ -65,8 +65,8 @@ class Parts {
 
  private:
   // Adds a part that consists of all points connected with `from`. Only neighbours with similar heights are
-  // connected, even if a steep step continues a steep slope. Otherwise a blurred outline, which is such a
-  // slope, would connect the figure with its background.
+  // connected. A steep step separates neighbours even if it continues a steep slope. Otherwise a blurred
+  // outline, which is such a slope, would connect the figure with its background.
   void flood(std::size_t from) {
     const BoundedGrid& b = grid_.bounds;
     const int number = static_cast<int>(all_.size());
@@ -142,8 +142,8 @@ class Evidence {
     jumps_ += is_jump(line, i, inwards);
   }
 
-  // Returns whether, at some point of the figure, the mean slope from the background up to this point is several
-  // times as steep as the slope beyond it.
+  // Returns whether, at some point of the figure, the mean slope from the background up to this point is
+  // several times as steep as the slope beyond the point.
   bool is_jump(const GridLine& line, int i, int inwards) const {
     const float ground = grid_.height[line.at(i - inwards)];
     for (int k = 1; k <= widest_outline; ++k, i += inwards) {

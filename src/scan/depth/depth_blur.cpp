@@ -1,5 +1,5 @@
-// Finds what is no surface in a depth image: blur, which are values between two surfaces that belong to neither of them,
-// and thin teeth on outlines. Tested by tests/scan/depth_image_test.cpp.
+// Finds the parts of a depth image that are no surface: blur, whose values lie between two surfaces and
+// belong to neither surface, and thin teeth on outlines. Tested by tests/scan/depth_image_test.cpp.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -24,7 +24,7 @@ Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r)
   return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
 }
 
-// The pixels of the cloud have sides of length 1. Changes their width and height to those in `shape`.
+// Changes the width and the height of the cloud's pixels from 1 to those in `shape`.
 void scale_pixels(Cloud& cloud, const Vec2& shape) {
   if (shape == Vec2::Ones()) return;
   for (Vec3& p : cloud.points) p.head<2>() = p.head<2>().cwiseProduct(shape);
@@ -48,8 +48,8 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z) {
   return cloud;
 }
 
-// Counts the values that are not depths as `missing`. A number among them that is possible as a depth is also counted
-// as `marked`; `marker` is the largest of these numbers.
+// Counts the values that are not depths as `missing`. Numbers among these values that are possible as depths
+// are also counted as `marked`; `marker` is the largest of these numbers.
 void count_missing(const DepthImage& image, const ValueRange& valid, DepthValues kind, DepthCloud& out) {
   for (const float v : image.values.pixels) {
     if (valid.contains(v)) continue;

@@ -15,7 +15,7 @@ namespace {
 // usually jumps.
 constexpr float steepest = 4;
 // Noise grows with depth. So the pixels are sorted by depth and divided into this many equal bins, and the
-// noise of each is measured separately.
+// noise is measured in each bin separately.
 constexpr std::size_t noise_bins = 8;
 
 // The standard deviation of the heights' noise, by depth. It is measured from the twist a - b - c + d of the heights

@@ -127,9 +127,9 @@ struct GridLine {
     return i >= 0 && i + 1 < size && grid.bounds.is_known[at(i)] && grid.bounds.is_known[at(i + 1)];
   }
   float step(int i) const { return has_step(i) ? grid.height[at(i + 1)] - grid.height[at(i)] : 0; }
-  // Returns whether step i continues the slope of step `next`, the step before or after it. At the edge of a
-  // round shape, the last step is steeper than the step before it; on a sphere it is up to 2.4 times as
-  // steep.
+  // Returns whether step i continues the slope of step `next`, which is the step before or after step i. At
+  // the edge of a round shape, the last step is steeper than the step before it; on a sphere it is up to 2.4
+  // times as steep.
   bool continues(int i, int next) const;
   // Returns whether the points i and i + 1 are known and belong to one surface.
   bool is_smooth(int i) const;
@@ -148,10 +148,10 @@ void each_line(const DepthGrid& grid, F&& f) {
 // Connects neighbouring grid points unless there is a depth jump between them. Terrain has no depth jumps.
 void join(DepthGrid& grid);
 
-// Returns a mask of the background: the parts behind depth jumps all around the figure that cover most of the
-// image's border. If there is no strong evidence of a background, the mask is empty, unless `is_wanted` is
-// true. Then a threshold separates two groups of depths. The mask contains the far group if this
-// group covers most of the border.
+// Returns a mask of the background: the parts that lie behind depth jumps all around the figure and cover
+// most of the image's border. Without strong evidence of a background, the mask is empty if `is_wanted` is
+// false. If `is_wanted` is true, a threshold separates two groups of depths, and the mask contains the far
+// group if this group covers most of the border.
 GridMask find_background(const DepthGrid& grid, bool is_wanted);
 
 struct BlurLimits {
@@ -164,8 +164,8 @@ struct BlurLimits {
 // grid count as known. Returns the number of points that became unknown.
 std::size_t drop_teeth(BoundedGrid& grid);
 
-// Finds blur along rows and columns: runs of points between two surfaces that continue neither of them. Adds these
-// points to the mask, and returns the number of added points.
+// Finds blur along rows and columns. Blur is a run of points between two surfaces that continues neither
+// surface. Adds the points of blur to the mask, and returns the number of added points.
 std::size_t add_blur(const DepthGrid& grid, const BlurLimits& limits, GridMask& is_left_out);
 
 }  // namespace relievo

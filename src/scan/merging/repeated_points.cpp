@@ -30,7 +30,7 @@ struct PointGroup {
 constexpr std::size_t most_repeats = 64;    // most points that are searched for repeats of one point
 constexpr std::size_t points_judged = 400;  // number of tested points, evenly distributed over the cloud
 // The distances from a point to the other points, in ascending order, may have a gap: a distance that is much
-// longer than the one before it. A gap is wide if, by chance, only this share of scattered points has so wide
+// longer than the one before it. A gap is wide if only this share of scattered points has, by chance, so wide
 // a gap.
 constexpr double gap_by_chance = .002;
 // Marching cubes may place two or three different vertices close together, which are no repeats. At a fifth

@@ -228,8 +228,8 @@ class NewSurface {
 // the same value.
 constexpr double least_turned = .75;
 
-// Returns whether there is a depth jump between two points and the surface behind ends there. This surface
-// ends if its normal at `back` leans towards `front`.
+// Returns whether there is a depth jump between two points at which the surface behind ends. The surface
+// behind ends if its normal at `back` leans towards `front`.
 bool ends_at_jump(const Surface& surface, Index front, Index back) {
   if (!is_occlusion(surface, front, back)) return false;
   if (surface.points[front].z() < surface.points[back].z()) std::swap(front, back);

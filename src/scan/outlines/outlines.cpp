@@ -17,8 +17,8 @@ namespace {
 
 // The unit of lengths is rho, the sampling distance. The unit of areas is rho^2.
 constexpr double least_piece = 20, hole_area = 4;
-// Jumps get a wider window than silhouettes, because the nodes of jumps scatter more. They say where the
-// surface in front ends, with an error of one rho or more.
+// Jumps get a wider window than silhouettes, because the nodes of jumps scatter more. These nodes show the
+// end of the surface in front, with an error of one rho or more.
 constexpr double point_spacing = .75, fair_window = 3, jump_window = 6;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;

@@ -42,9 +42,9 @@ class ExactOutlines {
   bool add_nodes(std::span<const Vec2> places, std::size_t i, bool is_closed, bool is_jump,
                  std::vector<CurveNode>& nodes) const;
   FairCurve on_outline(std::span<const CurveNode> nodes, bool is_closed, bool is_jump) const;
-  // Returns the nearest position on an exact outline of this kind with about this direction. If there is no
-  // such silhouette near, returns a position on a jump. Where little of the surface behind a jump is
-  // visible, the samples show a silhouette.
+  // Returns the nearest position on an exact outline with about this direction: on a jump if `is_jump`, else
+  // on a silhouette. If no such silhouette is near, returns a position on a jump, because the samples show a
+  // silhouette where little of the surface behind a jump is visible.
   std::optional<Vec2> nearest(const Vec2& place, double radius, const Vec2& direction, bool is_jump) const;
 
   double rho_;

@@ -66,9 +66,9 @@ class RowMaker {
     }
   }
 
-  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Odd rows have their points beside the
-  // midpoints of the curve's edges, even rows beside its points. Row 0, at a wall, has both. Then the long sides of
-  // the wall are edges of the Delaunay triangulation.
+  // Adds a row on the left (side 1) or on the right (side -1) of an outline. Odd rows have their points
+  // beside the midpoints of the curve's edges, even rows beside the curve's points. Row 0, at a wall, has
+  // points beside all of these, so that the long sides of the wall are edges of the Delaunay triangulation.
   void add_row(Index c, std::size_t row, double side) {
     const OutlineCurve& outline = outlines_[c];
     const std::size_t n = outline.curve.points.size();
@@ -201,7 +201,8 @@ void SideInterpolation::leave_same_side(const RowPoint& p, double radius, Around
   leave_same_face(matches);
 }
 
-// If a crease separates the points, keeps only those on the same face as the nearest point, unless they are too few.
+// If a crease separates the points, keeps only those on the same face as the nearest point, unless those are
+// too few.
 void SideInterpolation::leave_same_face(std::vector<Match>& matches) const {
   if (matches.empty()) return;
   const Index nearest = std::ranges::min_element(matches, {}, &Match::second)->first;

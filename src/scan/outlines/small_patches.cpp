@@ -21,8 +21,8 @@ constexpr double least_behind = .7;
 // The longest edge that connects points, in rho (sampling distances). Longer edges cross regions without points.
 constexpr double connection_length = 3;
 
-// `jumps` counts the jumps and gaps between points of a patch and other points. `behind` counts those of them at which
-// the patch is behind.
+// `jumps` counts the jumps and gaps between points of a patch and other points. `behind` counts those jumps
+// and gaps at which the patch is behind.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };

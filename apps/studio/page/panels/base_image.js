@@ -8,7 +8,7 @@ const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
 const isImage = (base) => base === "image" || base.startsWith("image:");
 
-// Returns the other options to change with a base: any base other than an image loses its height map.
+// Returns the options that must change together with a base: a base that is no image gets no height map.
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {
@@ -41,8 +41,8 @@ export class BaseImage {
     }
   }
 
-  // Returns whether a picture failed because the height map is missing. In that case informs the user, and returns
-  // false for later errors about the same height map.
+  // Returns whether a picture failed because the height map is missing, and informs the user of it. For later errors
+  // about the same height map, only returns false.
   isMissing({kind, input}) {
     const path = this.doc.now.options[NAME];
     if (kind !== "input" || !path || isGone(path) || input !== path) return false;

@@ -12,8 +12,8 @@ const percent = (share) => `${share > 0 && share < 0.1 ? "less than 0.1" : Numbe
 
 const share = (pixels, all) => `${count(pixels)} (${percent(100 * pixels / all)})`;
 
-// Returns a remark without the flags of the command line. To the remark on pixels that were taken out, adds the option
-// that keeps most of them, and a shorter text to show beside the picture.
+// Returns a remark without the flags of the command line. If the remark is on pixels that were taken out, and they are
+// background or much blur, adds the option that keeps them, and a shorter text to show beside the picture.
 export function noteOn(note, {pixels: all, uses}) {
   const text = note.text.replace(/ \(--[^)]*\)/g, "");
   if (!/ taken out/.test(text)) return {...note, text};

@@ -8,7 +8,7 @@ import {sizeText} from "../lengths.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 
-// Returns a note that explains the die of a piece, with its size if `size` is not null.
+// Returns a note that explains the die of a piece. States the size of the die if `size` is not null.
 function dieNote({options: {draft}}, {label}, size) {
   const walls = draft ? "" : " It has no draft angle: give it one if steep walls hold what it shapes.";
   return `This die shapes the ${label.toLowerCase()} with all its measures.${walls}` +

@@ -49,8 +49,8 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work of a document's step. The material does not matter, so every thick plate with round corners
-// counts as a carving. A die that was made from a piece has the kind of that piece.
+// Returns the name of the kind of work that a step shows. Ignores the material: any thick plate with round corners
+// counts as a carving, even in metal. A die that was made from a piece has the kind of that piece.
 export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
   if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
   if (wrap !== "none") return "shell";
@@ -63,9 +63,9 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfP
 export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
-// Returns the changes that start a kind of work. If `last`, the last step of that kind, is given, they restore its
-// values. If both kinds have a diameter, the current diameter stays. A kind with a rectangular plate starts with the
-// size of the current plate, unless that plate is an ellipse.
+// Returns the changes that start a kind of work. If `last`, the last step of that kind, is given, the changes restore
+// the values of `last`. If the current piece and the new one have a diameter, the current diameter stays. A kind with a
+// rectangular plate starts with the size of the current plate, unless that plate is an ellipse.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;

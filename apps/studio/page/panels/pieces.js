@@ -74,7 +74,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Labels for messages, for options whose controls have a different label or none.
+// The labels that messages use for options whose controls have a different label or none.
 const OTHERS = {tone: "Tone curve", view: "View", text: "Letters", ornaments: "Letters"};
 // Descriptions of the values of an option, for messages.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};

@@ -1,5 +1,5 @@
 // Marks the largest reachable height on the slider. If the wanted height is out of reach, names the option that limits
-// it, with a button that relaxes this option.
+// the height, with a button that relaxes this option.
 
 import {$, make, unbroken} from "../controls.js";
 import {shownOptions} from "../document.js";

@@ -1,5 +1,5 @@
-// Shows the panel of a scene with the rotation and the size of each model. When the user changes one, makes a new scene
-// file and opens it.
+// Shows the panel of a scene with the rotation and the size of each model. When the user changes a value, makes a new
+// scene file and opens it.
 
 import {$, make, pair, textField} from "../controls.js";
 import {fileNameOf} from "../file_field.js";

@@ -33,7 +33,7 @@ export const SHAPES = {
 // The initial texts of shapes that need a size.
 export const FIRST_TEXTS = {ball: "ball:3", flat: "flat:3", v: "v:60"};
 const IMAGE = "image"; // chosen by the control of the base's height map
-// Maps each parameter to those that it replaces, because a shape cannot have both.
+// Maps each parameter to the parameters that are deleted when it is set, since a shape cannot have them together.
 const REPLACED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
 
 // Returns the parameters of a shape; none for a shape that this page does not have.
@@ -102,7 +102,7 @@ export class ShapeRow {
 }
 
 // Returns the text of the option with a new value of a parameter, or without the parameter if the value is null. If the
-// shape needs the parameter, null gives it its initial value.
+// shape needs the parameter, null sets the parameter to its initial value.
 function withParameter(option, text, parameter, value) {
   const {name, values} = parseShape(option, text);
   const needed = parseShape(option, FIRST_TEXTS[name] ?? name).values.get(parameter);

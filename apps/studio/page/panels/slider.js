@@ -19,7 +19,7 @@ const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 // Returns the next multiple of a step in the given direction. The step is a tenth of the largest power of ten that does
 // not exceed the value, and at least `least`. With `isFine` it is ten times smaller.
 export function nextValue(value, direction, isFine, least) {
-  // From 10 downwards the step is 0.1. So 10 counts as slightly less if the direction is towards 0.
+  // After 10 comes 11, but before 10 comes 9.9. So 10 counts as slightly less if the direction is towards 0.
   const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9);
   const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
   const steps = value / step;

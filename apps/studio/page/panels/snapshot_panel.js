@@ -66,8 +66,8 @@ export class SnapshotPanel {
     return {field, compare, remove, element: make("li", {}, field, remove, apply, compare)};
   }
 
-  // Shows which snapshot is compared. Ends the comparison with a snapshot that was removed or has another view, since
-  // the engine can show only one view at a time.
+  // Shows which snapshot is compared. Ends the comparison if that snapshot was removed. Also ends the comparison if the
+  // snapshot has another view, since the engine can show only one view at a time.
   mark() {
     const view = viewOf(this.doc.now), {rival} = this.modes;
     const hasView = (snapshot) => isSameView(viewOf(this.stepOf(snapshot)), view);

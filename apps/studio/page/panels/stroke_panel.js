@@ -22,7 +22,7 @@ export class StrokePanel {
     if (focused) this.focus(focused);
   }
 
-  // Moves the focus to a control or, if it no longer exists, to the same control of the last row.
+  // Moves the focus to a control. If that control no longer exists, focuses the control of its kind in the last row.
   focus(control) {
     const [kind] = control.split(" "), alike = [...this.list.querySelectorAll(`[data-control^="${kind}"]`)];
     ($(`[data-control="${control}"]`, this.list) ?? alike.at(-1) ?? $("#stage")).focus();

@@ -84,8 +84,8 @@ export class Brush {
 
   radiusIn = (stage) => this.scaleOf(stage).longerMm * this.settings.size / 200 * stage.pixelsPerMm;
 
-  // Converts a pixel to a position in the figure's box, as shares of its width and height. As the model itself is not
-  // mirrored, positions on mirrored pieces count from the right.
+  // Converts a pixel to a position in the figure's box: shares of the box's width and height, from the lower left
+  // corner. On a mirrored piece, x counts from the right, because the model itself is not mirrored.
   shareOf(stage, [px, py]) {
     const {relief_mm: [low, high]} = stage.facts, place = stage.toPlace(px, py);
     const [u, v] = place.map((x, i) => (x - low[i]) / (high[i] - low[i]));
@@ -113,7 +113,8 @@ export class Brush {
     return stage.toPixels([isMirrored(this.doc.now) ? 1 - u : u, v].map((x, i) => low[i] + x * (high[i] - low[i])));
   }
 
-  // Returns the point at a position in the figure's box, as deep in the view as the point `other`, in scan coordinates.
+  // Returns a point in scan coordinates. Seen from the viewer, it has the position `place` in the figure's box and the
+  // same depth as the point `other`, which is also in scan coordinates.
   pointAt(place, other) {
     const {rotation, origin, size} = this.modelFacts(), row = (i) => rotation.slice(3 * i, 3 * i + 3);
     const depth = row(2).reduce((sum, x, i) => sum + x * other[i], 0);

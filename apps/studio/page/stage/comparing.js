@@ -43,7 +43,7 @@ export class Comparing {
     stage.drawOverlay();
   }
 
-  // Returns whether the divider is near that x coordinate, in pixels.
+  // Returns whether the divider is near the coordinate `x`, which is in pixels.
   isAt(x) {
     const isShown = this.isComparing && !this.isHolding;
     return isShown && Math.abs(x - this.split * this.stage.size.width) < NEAR;

@@ -124,7 +124,7 @@ export class LetterMarks {
     handle.onkeydown = (event) => this.step(event);
   }
 
-  // Moves the chosen ornament from its place at the beginning of the drag to that of the pointer.
+  // Moves or turns the chosen ornament as the pointer has moved since the beginning of the drag.
   move([x, y]) {
     const {drag: {from, ornament, at}, sign} = this;
     if (!isOnArc(ornament)) return this.change({at: [at[0] + sign * (x - from[0]), at[1] + y - from[1]]});

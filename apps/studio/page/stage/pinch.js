@@ -7,8 +7,9 @@ const SLACK = 8; // two fingers that turn by less than this angle in degrees onl
 const within180 = (angle) => angle - 360 * Math.round(angle / 360);
 
 // Calls begin() when the second finger touches the element, and end() when a finger is lifted. In between calls
-// move(from, to, ratio, turn): the midpoint of the fingers before and after, in pixels of the element; the ratio of
-// their distances; and the counterclockwise angle in degrees.
+// move(from, to, ratio, turn) for each movement. `from` and `to` are the old and the new midpoint of the fingers, in
+// pixels of the element. `ratio` is the new distance of the fingers divided by the old one. `turn` is the
+// counterclockwise angle in degrees.
 function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
   let last = null; // the last measurement; null unless two fingers touch

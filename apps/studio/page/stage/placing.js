@@ -58,8 +58,8 @@ export class Placing {
   // Corrects a figure that does not fit its plate. The correction belongs to the same step of the document as the
   // change that caused the error. The first argument is the error of the newest picture; `shown` has the facts of the
   // picture that is still shown. A figure that was moved too far returns to its shown position. A figure that is too
-  // large gets the largest width that fits; if no width fits, it moves to the centre of the plate. Returns whether the
-  // error was of this kind.
+  // large gets the largest width that fits; if no width fits, it moves to the centre of the plate. Returns whether
+  // the figure was corrected.
   fit({kind, input, message}, shown) {
     if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;

@@ -27,9 +27,9 @@ export class Stage {
     this.tool = "light";
     this.share = 1; // while the picture keeps changing, its width and height in pixels are multiplied by this factor
     // The states to be shown are numbered. `wanted` is the number of the newest state, and `drawn` is the number of the
-    // last state that was drawn. The other three are numbers of the last state for which a picture was drawn or has
-    // failed: `shown` for any picture, `fine` for a fine one, and `finished` for the last picture of a state, which
-    // shows the finished piece if one is wanted.
+    // last state that was drawn. The other three are numbers of states whose picture was drawn or has failed: `shown`
+    // is the newest state with any such picture, `fine` the newest with a fine one, and `finished` the newest with its
+    // last one. The last picture of a state shows the finished piece if one is wanted.
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // resting: the callbacks of rest()
     this.pause = new Pause(() => this.pump());
@@ -125,8 +125,8 @@ export class Stage {
     this.pump();
   }
 
-  // Returns whether the picture shows the piece as it is exported. A picture of a plain piece also counts if other
-  // pictures would have to wait while the piece is made.
+  // Returns whether the picture shows the piece as it is exported. If the engine cannot draw while it makes a piece,
+  // any picture of a plain piece counts, too.
   get isLikeFile() {
     return this.facts?.is_finished || (this.facts?.is_plain && !this.engine.drawsMeanwhile);
   }

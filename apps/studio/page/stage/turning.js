@@ -1,5 +1,5 @@
-// Turns the model on the picture. A drag shows the relief from other sides, and the last view becomes that of the
-// document.
+// Turns the model on the picture. A drag shows the relief from other sides, and the last view becomes the view
+// of the document.
 
 import {SIDES, cross, directionsOf, dot, optionsOf, turnedByHand, upright} from "../directions.js";
 
