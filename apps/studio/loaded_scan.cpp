@@ -42,7 +42,7 @@ Cloud share_of(const Cloud& cloud, double share) {
 }
 
 // Adds the points of a model to `all`. Drops the normals unless all models have normals. If any model has colours,
-// models without become white, as in sample_for_view().
+// models without colours become white, as in sample_for_view().
 void add(const Cloud& model, const PlacedModel& place, const Pose& pose, Cloud& all) {
   constexpr Colour white{255, 255, 255};
   const std::size_t before = all.size();

@@ -27,7 +27,7 @@ class LoadedScan {
 
   const ScanSource& input() const { return order_.input; }
 
-  // Returns whether reading the scan with these options could give another result.
+  // Returns whether reading the scan with these options could give another result than the scan that was read.
   bool depends_on(const InputArguments& how) const;
 
   // Returns the model if the scan is a single depth image, otherwise null.

@@ -252,8 +252,8 @@ class ShapePointMaker {
 
   using Cell = std::pair<std::int64_t, std::int64_t>;
 
-  // Returns the cell of a place. keep_clear() tests a part of an edge at once; a cell is wider than this part plus the
-  // least distance between points.
+  // Returns the cell of a place. keep_clear() tests an edge one part at a time; a cell is wider than the
+  // longest part plus the least distance between points.
   Cell cell_of(const Vec2& place) const {
     const auto at = [&](double v) { return static_cast<std::int64_t>(std::floor(v / (8 * least_))); };
     return {at(place.x()), at(place.y())};

@@ -27,8 +27,8 @@ std::vector<float> depths_of(const Surface& surface) {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
-// The direction to the lamp for scans. Large parts of a whole body would face away from the lamp for reliefs,
-// so this lamp is closer to the viewer's direction.
+// The direction to the lamp that lights scans. It is closer to the viewer's direction than that of the lamp
+// that lights reliefs, because large parts of a whole body would face away from the latter.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc, in sampling distances. With this radius, randomly scattered points leave few

@@ -63,8 +63,8 @@ void add_steps(const StepHeights& steps, double share, std::optional<double> hei
   parallel_for(z.size(), [&](std::size_t i) { z[i] += factor * static_cast<Real>(steps.z[i]); });
 }
 
-// Prepares a shape for a search with step_share(), for a height that slopes alone do not reach. Uncompressed
-// slopes need no height correction. The correction is turned off, because level parts would not stay level
+// Prepares a shape for a search with step_share(), if slopes alone do not reach the height. Turns the height
+// correction off, for two reasons: uncompressed slopes do not need it, and level parts would not stay level
 // with it.
 inline void keep_slopes(Shape& shape) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -102,7 +102,7 @@ void StrokeFields<Real>::take(const Strokes& strokes) {
   sum_masks();
 }
 
-// Computes StrokeBlur::removed() for the heights z in those layers that do not have it for these heights yet.
+// Computes StrokeBlur::removed() from the heights z. Skips layers for which it was computed from z before.
 template <typename Real>
 void StrokeFields<Real>::take_blurs(std::span<const Real> z) {
   const bool is_same = std::ranges::equal(z, blurred_);

@@ -20,10 +20,11 @@ constexpr std::size_t most_neighbours = 64;  // per point; arrays of this size a
 using Eigenvectors = Eigen::SelfAdjointEigenSolver<Mat3>;
 
 // Returns a quadratic form of a plane's normal. Its eigenvector with the least eigenvalue is the likeliest
-// normal of the plane through the members. Two deviations are assumed to be normally distributed: the
-// distances of the points from the plane, and the angles between the points' axes (see Cloud::axes) and the
-// plane's normal. The form is the sum of both squared deviations, each divided by its variance. The variance
-// of a deviation is estimated from the plane that fits this deviation alone. `covariance` has the trace 1.
+// normal of the plane through the members. Two kinds of deviation are assumed to be normally
+// distributed: the distances of the points from the plane, and the angles between the points' axes (see
+// Cloud::axes) and the plane's normal. The form is the sum of the squared deviations, divided by the variance
+// of their kind. This variance is estimated from the plane that minimises deviations of this kind alone.
+// `covariance` has the trace 1.
 Mat3 with_axes(const Mat3& covariance, std::span<const Vec3f> axes, std::span<const Index> members) {
   constexpr double fewest = 4, least_variance = 1e-9;
   Mat3 sum = Mat3::Zero();

@@ -64,8 +64,8 @@ std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
   return coarse;
 }
 
-// Adds a free node to the nodes of its colour, with its weights in the ties of the four cells around it. `tie_of` has
-// the tie of each cell.
+// Adds a free node to the nodes of its colour, together with its weights in the ties (see Springs) of the
+// four cells around it. `tie_of` has the index of each cell's tie.
 void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];

@@ -5,9 +5,9 @@
 //
 // A panel consists of strips of eight columns. Each strip begins at its own first row, because the columns of
 // a supernode form a lower triangle. Zeros are added below the last row until the number of rows is a
-// multiple of four. Within a strip, rows are stored in blocks of eight, and blocks by columns; if four rows
-// remain, the last block has four. Forward substitution reads the values from the first to the last,
-// and backward substitution reads them from the last to the first.
+// multiple of four. Within a strip, the rows are divided into blocks of eight, and each block is stored
+// column by column; if four rows remain, the last block has four. Forward substitution reads the values from
+// the first to the last, and backward substitution reads them from the last to the first.
 #pragma once
 
 #include <cstddef>

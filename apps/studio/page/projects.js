@@ -94,7 +94,7 @@ export class Projects {
       () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
-  // Saves the step to which the promise `promised` resolves as a project file. First asks whether to include the scan,
+  // Saves a step as a project file; the promise `promised` resolves to the step. First asks whether to include the scan,
   // if that is possible. A sample is never included, but the fonts and drawings of its ornaments are.
   save(input, promised) {
     const name = plainName(input), saveStep = async (isWithScan) => {

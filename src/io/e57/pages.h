@@ -30,8 +30,8 @@ struct E57Pages {
   std::uint64_t physical(std::uint64_t logical) const;
 };
 
-// Reads the header, verifies all checksums, and copies the contents of the pages. Errors name the byte, or
-// the page with a wrong checksum.
+// Reads the header, verifies all checksums, and copies the contents of the pages. An error states
+// the position of the wrong byte or, for a wrong checksum, the page.
 Result<void> read_e57_pages(const Source& source, E57Pages& pages);
 
 // The numbers of an E57 file are stored as follows. A CompressedVector section is a sequence of packets. Each

@@ -236,8 +236,9 @@ SideInterpolation::Value SideInterpolation::interpolated(const RowPoint& p, doub
   return value;
 }
 
-// Returns the mean of the depths that the nearest points predict. A prediction assumes that the chord between
-// the two points is perpendicular to the mean of their normals, which is exact on circles.
+// Returns the mean of the depths that the nearest points predict at the position `at`. Each prediction assumes
+// that the chord from the nearest point to the predicted point is perpendicular to the mean of the normals of
+// these two points. This assumption is exact on circles.
 double SideInterpolation::depth_at(const Vec2& at, const Vec3& normal, std::span<const Match> matches) const {
   const std::size_t count = std::min<std::size_t>(6, matches.size());
   double depths = 0, weights = 0;

@@ -12,8 +12,8 @@
 namespace relievo {
 namespace {
 
-// Patches with fewer points are small. Rows of points, which extend 3 rho inwards from each side, would
-// replace all of their points.
+// Patches with fewer points are small. The rows of points extend 3 rho inwards from each side of a patch, so
+// in a small patch they would replace all points.
 constexpr std::size_t least_patch = 60;
 // A small patch is removed if it is the rear side of at least this share of the depth jumps around it.
 constexpr double least_behind = .7;

@@ -32,7 +32,7 @@ function extentOf(outlines) {
 }
 
 export class LetterMarks {
-  // `panel` has the document's list and the chosen ornament, and changes it by panel.set(at, part, gesture).
+  // `panel` knows the document's ornaments and which of them is chosen. panel.set(at, part, gesture) changes an ornament.
   constructor({stage, doc, panel}) {
     Object.assign(this, {stage, doc, panel, placed: [], drag: null});
     this.rest = new Pause(() => doc.endGesture("letters"), GESTURE_END_MS);
