@@ -102,9 +102,9 @@ Surface surface_of_view(const MeasuredCloud& measured, const View& view);
 // paper's equation (1), up to a turn about the line of sight.
 Cloud turned(const Cloud& cloud, const Mat3& R, const Vec3& centre = Vec3::Zero());
 
-// Rotates the cloud into the view of the surface, and gives the normals their signs. At all points that the view may show, removes
-// the noise that the view asks to remove. Sets the surface's rho, and its members about normals and noise. The result
-// is not usable once the progress is cancelled.
+// Rotates the cloud into the view of the surface, and gives the normals their signs. At all points that the
+// view may show, removes the noise that the view asks to remove. Sets the surface's rho, and its members about
+// normals and noise. The result is not usable once the progress is cancelled.
 ViewedCloud look_at(const MeasuredCloud& measured, Surface& surface, const Progress* progress = nullptr);
 
 // Returns an error that names a better view, if nine tenths of the surface face away from the viewer. A
