@@ -11,14 +11,20 @@
 
 namespace relievo::app {
 
-namespace {
-
-// Returns the option values of an order, completed by those of its project.
-OptionValues values_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
-  return stored ? with_given(stored->project.options, order.values) : order.values;
+bool has_image_base(const OptionValues& values) {
+  const auto base = values.find("base");
+  if (base == values.end()) return false;
+  const auto* const text = std::get_if<std::string>(&base->second);
+  return text && text->starts_with("image");
 }
 
-}  // namespace
+OptionValues overridden(OptionValues own, const MakeOrder& order) {
+  OptionValues values = with_given(std::move(own), order.values);
+  const bool has_image = order.base_image || !order.base_image_path.empty();
+  if (has_image && !order.values.contains("base") && !has_image_base(values))
+    values.insert_or_assign("base", std::string("image"));
+  return values;
+}
 
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
@@ -29,8 +35,7 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Sto
     });
     RELIEVO_CHECK(take_text_of_file("strokes", stored->folder, project->options));
   }
-  OptionValues values = project ? with_given(project->options, order.values) : order.values;
-  if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
+  OptionValues values = overridden(project ? project->options : OptionValues(), order);
   RELIEVO_CHECK(take_text_of_file("strokes", {}, values));
   RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
@@ -47,7 +52,7 @@ Result<CheckedOrder> check_order(MakeOrder order) {
   RELIEVO_TRY(auto project,
               find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));
-  const OptionValues values = values_of(order, project);
+  const OptionValues values = overridden(project ? project->project.options : OptionValues(), order);
   RELIEVO_TRY(order.input_arguments.depth, parse_depth(values));
   RELIEVO_TRY(order.input_arguments.keeps_doubtful, parse_doubtful(values));
   order.input_arguments.is_lithophane = options.form == Form::lithophane;

@@ -30,8 +30,16 @@ struct MakeOrder {
   // name of all inputs together.
   std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
+  std::vector<std::string> unset = {};       // options of a prepared model that this order does not use
   std::vector<std::string> paths_read = {};  // no output may overwrite these files; see paths_read_by()
 };
+
+// Returns whether the options state the base `image`, which needs a height map.
+bool has_image_base(const OptionValues& values);
+
+// Returns the options `own`, overridden by those of the order, see with_given(). A base's height map in the order
+// sets the base `image`, unless the order states a base.
+OptionValues overridden(OptionValues own, const MakeOrder& order);
 
 // Parses the options of an order and those of its project, if it has one. Errors: those of parse_options()
 // and take_base_image().

@@ -9,12 +9,13 @@ namespace relievo::app {
 
 PreparedModel::PreparedModel(const LoadedOrder& loaded, LiveModel live)
     : facts_(facts_of(loaded)),
-      prepared_with_{.values = loaded.values,
-                     .input_arguments = {},
-                     .base_image_path = loaded.base_image_path,
-                     .base_image = loaded.base_image},
+      values_(overridden({}, loaded)),
+      base_image_(loaded.options.base.image),
       project_(loaded.project),
-      live_(std::move(live)) {}
+      live_(std::move(live)) {
+  // The model is prepared for this method, even if a later order replaces the option that implied it.
+  values_.try_emplace("method", std::string(name_of(loaded.options.effective_method())));
+}
 
 Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(MakeOrder order, Progress& progress) {
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
@@ -27,10 +28,11 @@ Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(MakeOrder order, P
 
 MakeOrder PreparedModel::completed(const MakeOrder& order) const {
   MakeOrder complete = order;
-  complete.values = with_given(prepared_with_.values, order.values);
-  if (order.base_image || !order.base_image_path.empty()) return complete;
-  complete.base_image = prepared_with_.base_image;
-  complete.base_image_path = prepared_with_.base_image_path;
+  OptionValues own = values_;
+  for (const std::string& name : order.unset) own.erase(name);
+  complete.values = overridden(std::move(own), order);
+  const bool has_image = order.base_image || !order.base_image_path.empty();
+  if (!has_image && has_image_base(complete.values)) complete.base_image = base_image_;
   return complete;
 }
 

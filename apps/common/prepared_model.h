@@ -41,11 +41,13 @@ class PreparedModel {
  private:
   PreparedModel(const LoadedOrder& loaded, LiveModel live);
 
-  // Returns the order, completed by the options and the base's height map with which the model was prepared.
+  // Returns the order, completed by the options and the base's height map with which the model was prepared. Leaves
+  // out the options in MakeOrder::unset, and the height map if the order has another base.
   MakeOrder completed(const MakeOrder& order) const;
 
   InputFacts facts_;
-  MakeOrder prepared_with_;  // only the options and the base's height map are set
+  OptionValues values_;  // those of the order with which the model was prepared, and the method
+  std::shared_ptr<const Image<float>> base_image_;
   std::optional<StoredProject> project_;
   Mutex mutex_;  // guards the model's frames and pictures
   LiveModel live_;

@@ -70,9 +70,10 @@ OptionValues with_given(OptionValues own, const OptionValues& given) {
   // Each of these four options determines the height, so only one of them may stay. The option ground is
   // valid only with mm-per-value.
   const bool has_scale = has("mm-per-value");
-  if (has("height") || has("height-of-diagonal") || has("alpha") || has_scale)
+  if (has("height") || has("height-of-diagonal") || has("alpha") || has_scale) {
     drop({"height", "height-of-diagonal", "alpha", "mm-per-value"});
-  if (!own.contains("mm-per-value") && !has_scale) drop({"ground"});
+    if (!has_scale) drop({"ground"});
+  }
   if (has("alpha") || has_scale) drop({"method"});  // alpha implies the method paper, mm-per-value linear
   if (has("method") && given.at("method") != OptionValue("paper")) drop({"alpha"});
   if (has("method") && given.at("method") != OptionValue("linear")) drop({"mm-per-value", "ground"});

@@ -38,7 +38,7 @@ struct Project {
 // kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options `own` of a project, overridden by the options `given` by the user. Some options exclude
+// Returns the options `own` of a project or of a prepared model, overridden by the options `given` by the user. Some options exclude
 // each other, such as height and alpha, or plate and diameter. If `given` has such an option, the options of
 // `own` that it excludes are dropped, and so is a method or an outline of `own` that may contradict it.
 OptionValues with_given(OptionValues own, const OptionValues& given);

@@ -1,6 +1,6 @@
 // Relievo in JavaScript: makes reliefs from scans.
 import { RelievoError } from "./engine.js";
-import { checkNumbers, filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
+import { checkNumbers, filesOf, modelsOf, optionError, requestOf, withKeyword } from "./inputs.js";
 import { newEngine } from "./new_engine.js";
 import { optionTable, samples, version } from "./options.js";
 
@@ -164,7 +164,7 @@ export class Session {
   }
 
   frame(options = {}) {
-    return new Frame(this.#engine, call(this.#engine, "frame", { session: this.#number, ...requestOf(options, nearestIn(this.#engine)) }).json);
+    return new Frame(this.#engine, call(this.#engine, "frame", this.#request(options)).json);
   }
 
   picture(frame, options = {}) {
@@ -172,8 +172,12 @@ export class Session {
   }
 
   make(options = {}) {
-    const request = { session: this.#number, ...requestOf(options, nearestIn(this.#engine)) };
-    return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
+    return new Relief(this.#engine, watchedCall(this.#engine, "session_make", this.#request(options), options).json);
+  }
+
+  #request(options) {
+    if (options.baseImage) throw optionError("baseImage", "expected it in the options of Session.open()");
+    return { session: this.#number, ...requestOf(options, nearestIn(this.#engine)) };
   }
 
   // Return x, y and z of each point of the surface, and the three indices of each triangle's corners.

@@ -58,7 +58,7 @@ function textOf(value) {
   return parts.map(textOf).join(parts.some((part) => Array.isArray(part)) ? ";" : ",");
 }
 
-function optionError(input, expected) {
+export function optionError(input, expected) {
   return new RelievoError({ kind: "option", input, expected, message: `${input}: ${expected}` });
 }
 
@@ -74,14 +74,14 @@ export function checkNumbers(request) {
 export function requestOf(options, nearest) {
   const request = { options: {} };
   for (const [keyword, value] of Object.entries(options)) {
-    if (value === undefined || value === null || OF_THE_CALL.has(keyword)) continue;
+    if (value === undefined || OF_THE_CALL.has(keyword)) continue;
     const name = nameOf.get(keyword);
     if (!name) {
       const meant = keywords.get(nearest(keyword, [...keywords.keys()]));
       throw optionError(keyword, `expected the name of an option${meant ? `, the nearest is ${meant}` : ""}`);
     }
     if (typeof value === "number" && !Number.isFinite(value)) throw optionError(keyword, `expected a finite number, found ${value}`);
-    request.options[name] = isNumber.has(name) ? value : textOf(value);
+    request.options[name] = isNumber.has(name) || value === null ? value : textOf(value);
   }
   if (options.streamAboveMb !== undefined) request.stream_above_mb = options.streamAboveMb;
   return request;

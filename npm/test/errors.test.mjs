@@ -159,4 +159,6 @@ test("a session makes frames, pictures and the relief of make()", async () => {
   const coins = await Session.open(cloud, { diameterMm: 40, rimMm: 1, heightMm: 3 });
   assert.deepEqual(coins.make({ heightMm: 2 }).solid("stl"),
     (await make(cloud, { diameterMm: 40, rimMm: 1, heightMm: 2 })).solid("stl"));
+  assert.deepEqual(coins.make({ rimMm: null }).solid("stl"), (await make(cloud, { diameterMm: 40, heightMm: 3 })).solid("stl"));
+  assert.equal((await errorOf(async () => coins.make({ baseImage: cloud }))).input, "baseImage");
 });

@@ -175,6 +175,15 @@ OptionValues values_of(const py::dict& given) {
   return values;
 }
 
+std::vector<std::string> unset_options(const py::dict& given) {
+  std::vector<std::string> names;
+  for (const OptionRow& option : option_table()) {
+    const std::string keyword = app::keyword_of(option);
+    if (given.contains(keyword.c_str()) && given[keyword.c_str()].is_none()) names.emplace_back(option.name);
+  }
+  return names;
+}
+
 app::InputArguments input_arguments(const py::dict& given) {
   app::InputArguments arguments;
   const OptionRow stream{.name = "stream_above_mb", .unit = "MB", .min = 0, .max = 1e9, .help = {}};

@@ -19,6 +19,9 @@ std::string keyword_of(std::string_view name);
 // of another type.
 OptionValues values_of(const pybind11::dict& given);
 
+// Returns the names of the options whose value is None.
+std::vector<std::string> unset_options(const pybind11::dict& given);
+
 // Returns the options for reading depth images, and the file size above which files are read in blocks.
 // Raises the errors of values_of(), and relievo.Error.
 app::InputArguments input_arguments(const pybind11::dict& given);

@@ -35,8 +35,10 @@ py::bytes bytes_of(std::string_view text) {
 
 SharedRelief make(const py::list& sources, const py::dict& keywords, const py::object& callback) {
   app::MakeOrder order = order_of(sources, keywords);
-  order.paths_read = app::paths_read_by(order);
-  return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
+  return watched_value(callback, [&](Progress& progress) {
+    order.paths_read = app::paths_read_by(order);
+    return app::make(order, progress);
+  });
 }
 
 void check_size(const char* keyword, int px, int most_px) {
@@ -222,6 +224,7 @@ app::MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
   app::MakeOrder order{values_of(keywords), input_arguments(keywords)};
   take_sources(sources, order);
   order.scan_path = scan_path_of(keywords);
+  order.unset = unset_options(keywords);
   const py::object image = keywords.attr("get")("base_image");
   if (image.is_none()) return order;
   if (py::isinstance<py::str>(image))

@@ -16,14 +16,18 @@ using SharedFrame = std::shared_ptr<FrameInMm>;
 
 SharedModel open(const py::list& sources, const py::dict& keywords, const py::object& callback) {
   app::MakeOrder order = order_of(sources, keywords);
-  order.paths_read = app::paths_read_by(order);
-  return watched_value(callback, [&](Progress& progress) { return PreparedModel::prepare(order, progress); });
+  return watched_value(callback, [&](Progress& progress) {
+    order.paths_read = app::paths_read_by(order);
+    return PreparedModel::prepare(order, progress);
+  });
 }
 
 SharedRelief make(const SharedModel& prepared, const py::dict& keywords, const py::object& callback) {
   app::MakeOrder order = order_of(py::list(), keywords);
-  order.paths_read = app::paths_read_by(order);
-  return watched_value(callback, [&](Progress& progress) { return prepared->make(order, progress); });
+  return watched_value(callback, [&](Progress& progress) {
+    order.paths_read = app::paths_read_by(order);
+    return prepared->make(order, progress);
+  });
 }
 
 SharedFrame frame(const SharedModel& prepared, const py::dict& keywords) {

@@ -96,6 +96,19 @@ class Frames(unittest.TestCase):
                          relievo.make(points, plate="80x60", height_mm=3, resolution_mm=1).to_bytes("stl"))
         self.assertEqual(coin.to_bytes("stl"),
                          relievo.make(points, diameter_mm=40, height_mm=3, resolution_mm=1).to_bytes("stl"))
+        self.assertEqual(session.make(plate=None, width_mm=50).to_bytes("stl"),
+                         relievo.make(points, width_mm=50, height_mm=3, resolution_mm=1).to_bytes("stl"))
+
+    def test_and_reliefs_keep_the_method_and_replace_the_base(self):
+        points, image = scan(), np.linspace(0, 1, 400, dtype=np.float32).reshape(20, 20)
+        session = relievo.Session(points, alpha=3, base_image=image, resolution_mm=1)
+        self.assertEqual(session.make(height_mm=2, base="dome:height=4").to_bytes("stl"),
+                         relievo.make(points, method="paper", height_mm=2, base="dome:height=4", resolution_mm=1).to_bytes("stl"))
+        self.assertEqual(session.make().to_bytes("stl"),
+                         relievo.make(points, alpha=3, base_image=image, resolution_mm=1).to_bytes("stl"))
+        dome = relievo.Session(points, base="dome:height=4", resolution_mm=1)
+        self.assertEqual(dome.make(base_image=image).to_bytes("stl"),
+                         relievo.make(points, base_image=image, resolution_mm=1).to_bytes("stl"))
 
     def test_leak_nothing(self):
         session = relievo.Session(relievo.sample("shell", points=1000))

@@ -47,6 +47,7 @@ TEST(ProjectOptions, GiveWayToTheirAlternatives) {
       for (const auto& [name, value] : given) EXPECT_EQ(all.at(name), value);
     }
   EXPECT_EQ(app::with_given(paper, values({{"height", 4.}})).at("width"), OptionValue(50.));
+  EXPECT_EQ(app::with_given(values({{"ground", 3.}}), {}).at("ground"), OptionValue(3.));
   EXPECT_EQ(app::with_given(scale, values({{"ground", 3.}})).at("mm-per-value"), OptionValue(5.));
 }
 

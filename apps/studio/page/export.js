@@ -2,6 +2,7 @@
 
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
+import {showText} from "./inputs.js";
 import {shown, sizeText, typedNumber, withUnit} from "./lengths.js";
 import {inWords} from "./panels/pieces.js";
 
@@ -82,7 +83,7 @@ export class ExportDialog {
     const isMade = await this.run("Waiting for what was entered …", async (isWanted) => {
       this.order = await outcome;
       if (!isWanted()) return;
-      if ($("#export-name").value === usual) $("#export-name").value = this.order.name;
+      if ($("#export-name").value === usual) showText($("#export-name"), this.order.name);
       $("#export-note").textContent = "Making the piece …";
       this.piece = await this.engine.piece(this.order.options);
     });

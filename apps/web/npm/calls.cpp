@@ -74,7 +74,10 @@ Result<MakeOrder> order_from(const Json& json) {
   const Json options = json.contains("options") ? json["options"] : Json::object();
   if (!options.is_object()) return option_error("options", "expected an object");
   for (const auto& [name, given] : options.items()) {
-    if (given.is_null()) continue;
+    if (given.is_null()) {
+      order.unset.push_back(name);
+      continue;
+    }
     const OptionRow* const option = find_option(name);
     if (!option) return option_error(name, "expected the name of an option");
     const std::optional<OptionValue> value = value_from_json(given);
