@@ -22,10 +22,13 @@ export class StrokePanel {
     if (focused) this.focus(focused);
   }
 
-  // Moves the focus to a control. If that control no longer exists, focuses the control of its kind in the last row.
+  // Moves the focus to a control, and selects its text, if it has one, as the Tab key does. If that control no longer
+  // exists, focuses the control of its kind in the last row.
   focus(control) {
     const [kind] = control.split(" "), alike = [...this.list.querySelectorAll(`[data-control^="${kind}"]`)];
-    ($(`[data-control="${control}"]`, this.list) ?? alike.at(-1) ?? $("#stage")).focus();
+    const found = $(`[data-control="${control}"]`, this.list) ?? alike.at(-1) ?? $("#stage");
+    found.focus();
+    found.select?.();
   }
 
   row(stroke, at) {
