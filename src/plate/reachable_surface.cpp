@@ -45,12 +45,10 @@ class ToolHeights {
     return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
   }
 
-  // Returns the height that the tool leaves at a point, interpolated between samples. Outside all samples,
-  // returns the height of the point itself.
-  double height_at(const Vec3& point) const {
-    const double z = interpolated(
-        point, [&](int x, int y) { return field_.box.min.z() + static_cast<double>(closed_.at(x, y)); });
-    return std::isnan(z) ? point.z() : z;
+  // Returns how far the interpolated heights that the tool leaves are above a point. Outside all samples,
+  // returns 0.
+  double rise_at(const Vec3& point) const {
+    return interpolated(point, [&](int x, int y) { return place(x, y).z() - point.z(); });
   }
 
   // Returns how much material the tool leaves above a point: the smaller of two values. At the foot of a wall
@@ -58,7 +56,7 @@ class ToolHeights {
   // nothing there. At the upper edge of a wall the second one, the interpolated difference between the
   // heights, is too large.
   double left_at(const Vec3& point) const {
-    return std::min(height_at(point) - point.z(),
+    return std::min(rise_at(point),
                     interpolated(point, [&](int x, int y) { return static_cast<double>(left(x, y)); }));
   }
 
@@ -85,7 +83,7 @@ class ToolHeights {
     double weight;
   };
 
-  // Returns the bilinear interpolation of value(x, y) between samples; NaN outside all samples.
+  // Returns the bilinear interpolation of value(x, y) between samples; 0 outside all samples.
   template <typename Value>
   double interpolated(const Vec3& point, const Value& value) const {
     const Vec2 place = to_samples(point) - Vec2(.5, .5);
@@ -99,7 +97,7 @@ class ToolHeights {
       sum += weight * value(x + dx, y + dy);
       weights += weight;
     }
-    return sum / weights;
+    return weights > 0 ? sum / weights : 0;
   }
 
   HeightField field_;
@@ -205,7 +203,7 @@ void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const Rim
     const ToolHeights heights(surface.solid, tool);
     parallel_for(surface.solid.points.size(), [&](std::size_t i) {
       Vec3& p = surface.solid.points[i];
-      p.z() = std::max(p.z(), heights.height_at(p));
+      p.z() += std::max(0., heights.rise_at(p));
     });
     return;
   }
