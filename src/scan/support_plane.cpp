@@ -31,7 +31,7 @@ constexpr double least_share = .08;      // least share of points on the plane; 
 constexpr double least_figure = .02;     // least share of the points in front of a plane
 // The most points behind the plane, as a share of all points that are not on it.
 constexpr double most_behind = .1;
-// Of the points in front of the plane, at least this share must be above the hull of the points on the plane.
+// At least this share of the points in front of the plane must be above the hull of the points on the plane.
 constexpr double least_over = .7;
 // The least height of a figure, as a share of the side of a square with the figure's area. Reliefs, medals and
 // letters are lower.
