@@ -20,8 +20,7 @@ bool has_image_base(const OptionValues& values) {
 
 OptionValues overridden(OptionValues own, const MakeOrder& order) {
   OptionValues values = with_given(std::move(own), order.values);
-  const bool has_image = order.base_image || !order.base_image_path.empty();
-  if (has_image && !order.values.contains("base") && !has_image_base(values))
+  if (has_height_map(order) && !order.values.contains("base") && !has_image_base(values))
     values.insert_or_assign("base", std::string("image"));
   return values;
 }

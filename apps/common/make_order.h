@@ -34,6 +34,11 @@ struct MakeOrder {
   std::vector<std::string> paths_read = {};  // no output may overwrite these files; see paths_read_by()
 };
 
+// Returns whether the order has a height map for the base.
+inline bool has_height_map(const MakeOrder& order) {
+  return order.base_image || !order.base_image_path.empty();
+}
+
 // Returns whether the options state the base `image`, which needs a height map.
 bool has_image_base(const OptionValues& values);
 

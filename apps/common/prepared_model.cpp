@@ -31,8 +31,7 @@ MakeOrder PreparedModel::completed(const MakeOrder& order) const {
   OptionValues own = values_;
   for (const std::string& name : order.unset) own.erase(name);
   complete.values = overridden(std::move(own), order);
-  const bool has_image = order.base_image || !order.base_image_path.empty();
-  if (!has_image && has_image_base(complete.values)) complete.base_image = base_image_;
+  if (!has_height_map(order) && has_image_base(complete.values)) complete.base_image = base_image_;
   return complete;
 }
 
