@@ -115,14 +115,17 @@ export declare class Frame {
   release(): void;
 }
 
+/** Options that replace those of Session.open(). Null takes one back. */
+export type SessionOptions = { [Name in keyof ReliefOptions]: ReliefOptions[Name] | null };
+
 export declare class Session {
   private constructor();
   static open(source: Source, options?: MakeOptions): Promise<Session>;
   readonly pointCount: number;
   readonly triangleCount: number;
-  frame(options?: ReliefOptions): Frame;
+  frame(options?: SessionOptions): Frame;
   picture(frame: Frame, options?: PictureOptions): { width: number; height: number; pixels: Uint8ClampedArray };
-  make(options?: ReliefOptions & Watching): Relief;
+  make(options?: SessionOptions & Watching): Relief;
   readonly points: Float64Array;
   readonly triangles: Uint32Array;
 }

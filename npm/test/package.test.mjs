@@ -150,7 +150,7 @@ test("types hold under tsc --strict", () => {
     const relief = await make({ points: new Float64Array(9) }, { ...options, ...numbers, progress: (stage: string) => stage !== "normals" });
     const size: number = relief.report.size_mm[2] + relief.heightMap({ size: 10 }).heights.length;
     const session = await Session.open(new Uint8Array());
-    const pixels: Uint8ClampedArray = session.picture(session.frame(options), { yawDeg: 3 }).pixels;
+    const pixels: Uint8ClampedArray = session.picture(session.frame({ ...options, rimMm: null }), { yawDeg: 3 }).pixels;
     const made = await new RelievoWorker().make(new ArrayBuffer(1), options, { preview: {} });
     try { console.log(size, pixels, made.preview?.length); } catch (error) { if (error instanceof RelievoError) console.log(error.place); }
     export {};`);
