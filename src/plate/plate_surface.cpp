@@ -144,6 +144,15 @@ TargetSurface moved(TargetSurface target, const Vec3& shift) {
   return target;
 }
 
+// Returns the deformation that lifts each point by the target's height.
+Deformation lifting(const TargetSurface& target) {
+  Deformation deformation = target.deformation;
+  deformation.at = [height = target.height](const Vec3& p) {
+    return Vec3(p.x(), p.y(), p.z() + height(p.head<2>()));
+  };
+  return deformation;
+}
+
 void lift(std::vector<Vec3>& points, const TargetSurface& target, double sign) {
   parallel_for(points.size(),
                [&](std::size_t i) { points[i].z() += sign * target.height(points[i].head<2>()); });
@@ -184,12 +193,12 @@ Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
 // state, in which the ground is level.
 Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
                     std::span<const Vec2> rim_inner) {
-  // For a wrap, wrap_plate() later refines the whole plate.
-  if (target.is_lifted)
-    surface.solid.error_mm = refine(surface.solid, surface.outline, target.deformation, options.tolerance_mm);
   const bool is_simplified = options.simplify_mm > 0 && !surface.outline.empty();
   const double ground_z = surface.solid.ground_mm;
-  if (is_simplified || target.is_lifted) lift(surface.solid.points, target, 1);
+  // A wrap that is not simplified needs nothing here, because wrap_plate() later refines the whole plate.
+  if (!is_simplified && !target.is_lifted) return {};
+  surface.solid.error_mm = refine(surface.solid, surface.outline, lifting(target), options.tolerance_mm);
+  lift(surface.solid.points, target, 1);
   if (!is_simplified) return {};
   RELIEVO_CHECK(simplify_surface(surface, {options.simplify_mm, options.max_slope, options.most_triangles}));
   lift(surface.solid.points, target, -1);

@@ -35,6 +35,22 @@ HeightFieldMesh scattered_hill() {
   return test::front_over(points);
 }
 
+// Returns the same hill with many points on it, and few around it. It is a Delaunay triangulation of points with
+// shorter x, so a Delaunay triangulation of the points themselves has other edges.
+HeightFieldMesh hill_in_large_triangles() {
+  constexpr double stretch = 8;
+  test::Random random(7);
+  std::vector<Vec3> points = {{0, 0, 0}, {30, 0, 0}, {30, 20, 0}, {0, 20, 0}};
+  for (int i = 0; i < 20000; ++i) {
+    const double x = random.uniform(0, 30), y = random.uniform(0, 20);
+    if (bump(x, y) > 0 || i < 60) points.emplace_back(x, y, bump(x, y));
+  }
+  for (Vec3& p : points) p.x() /= stretch;
+  HeightFieldMesh front = test::front_over(points);
+  for (Vec3& p : front.points) p.x() *= stretch;
+  return front;
+}
+
 PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectangle, double rim = 0) {
   PlateOptions options{2, 1.5, outline, 3, {rim, .8, .4}, *parse_base(shape)};
   Image<float> grid = filled_image(40, 30, 0.F);
@@ -202,6 +218,28 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
       EXPECT_LE(worst, solid.error_mm + 1e-4) << shape;
       EXPECT_GE(worst, solid.error_mm / 2) << shape;
     }
+  }
+}
+
+// Simplification may add points inside large triangles. There, too, the curved surface must be followed.
+TEST(PlateBase, SimplerPlatesOfAWrapKeepTheirHeightsInsideLargeTriangles) {
+  const HeightFieldMesh front = hill_in_large_triangles();
+  for (const char* wrap : {"cylinder:turn=200", "cylinder:turn=200,inside", "cone:turn=200", "sphere:turn=100"}) {
+    PlateOptions options{2, 1.5};
+    options.wrap = *parse_wrap(wrap);
+    options.tolerance_mm = .004;
+    const Solid full = test::plate_of(front, options);
+    options.simplify_mm = .03;
+    const Solid solid = test::plate_of(front, options);
+    EXPECT_LT(solid.front_triangles, full.front_triangles) << wrap;
+    const Heights heights(full);
+    double worst = 0;
+    for (std::size_t t = 0; t < solid.front_triangles; ++t)
+      for (const Index i : solid.triangles[t]) {
+        const double off = solid.points[i].z() - heights.at(solid.points[i].head<2>());
+        if (!std::isnan(off)) worst = std::max(worst, std::abs(off));
+      }
+    EXPECT_LE(worst, .034) << wrap;
   }
 }
 
