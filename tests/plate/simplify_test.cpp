@@ -106,6 +106,19 @@ TEST(Simplify, NeverAddsTriangles) {
   }
 }
 
+// With as many triangles as a tolerance needs, a limit for their number must find errors that are about as small.
+TEST(Simplify, ALimitForTrianglesSpreadsTheErrorEvenly) {
+  const HeightFieldMesh full = scattered_front(20000, waves);
+  for (const double tolerance : {.2, .05, .02}) {
+    const auto within = value_of(simplify(full, tolerance));
+    SimplifyOptions options{1e-6};
+    options.most_triangles = within.front.triangles.size();
+    const auto limited = value_of(simplify(full, options));
+    EXPECT_LE(limited.front.triangles.size(), options.most_triangles);
+    EXPECT_LT(limited.error_mm, 1.5 * tolerance);
+  }
+}
+
 TEST(Simplify, ColoursFollowTheirPoints) {
   HeightFieldMesh full = scattered_front(300, waves);
   for (const Vec3& p : full.points) full.colours.push_back({static_cast<std::uint8_t>(p.x() * 4), 0, 9});

@@ -24,6 +24,10 @@ constexpr std::size_t grain = 8192;  // points or edges that one task measures
 // triangles are divided until they follow the original's triangles, which do not exceed the limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
+// In each round, a limit for the number of triangles postpones errors below this share of the largest error. But it does
+// not postpone more than needed to leave this share of the triangles for the next rounds, so that few rounds suffice.
+constexpr double postponed_share = .5, left_share = .7;
+
 // A position where a triangle of the approximation exceeds its tolerance. It is a point of the
 // original front, or a position on an edge of it, given as a share of the edge.
 struct Candidate {
@@ -136,17 +140,19 @@ class Simplifier {
     return count;
   }
 
-  // Removes candidates with which the number of triangles would exceed its limit. If there is a limit, the
-  // half of the candidates with the smaller errors is postponed, too. Then errors are similar everywhere when
-  // the limit is reached. A point adds two triangles; a point on the hull adds one.
+  // Removes candidates with which the number of triangles would exceed its limit. If there is a limit, candidates with
+  // small errors are postponed, too. Then errors are similar everywhere when the limit is reached. A point adds two
+  // triangles; a point on the hull adds one.
   void limit(std::vector<Candidate>& worst) const {
     if (!is_limited()) return;
     const std::size_t triangles = triangle_count(), left = options_.most_triangles > triangles
                                                                ? (options_.most_triangles - triangles) / 2
                                                                : 0;
-    const std::size_t count = std::min(left, (worst.size() + 1) / 2);
     std::ranges::stable_sort(worst, std::ranges::greater(), &Candidate::error);
-    worst.resize(count);
+    const auto is_large = [&](const Candidate& c) { return c.error >= postponed_share * worst[0].error; };
+    const auto large = static_cast<std::size_t>(std::ranges::count_if(worst, is_large));
+    const auto few = static_cast<std::size_t>((1 - left_share) * static_cast<double>(left));
+    worst.resize(std::min(left, std::max(large, std::min(few, (worst.size() + 1) / 2))));
   }
 
   // Chooses the first points: the corners of the hull, the boundaries of the relief and of flat ground, and the extreme
