@@ -16,9 +16,9 @@
 namespace relievo {
 namespace {
 
-// Shares of the tolerance that are reserved for later steps: bending triangles to a curved base, and flipping
-// edges of thin triangles.
-constexpr double bending_share = .25, turning_share = .01;
+// Shares of the tolerance that are reserved for other steps: bending triangles to a curved base, each of the two steps
+// that bend them for a wrap, and flipping edges of thin triangles.
+constexpr double base_share = .25, wrap_share = .2, turning_share = .01;
 // The tolerance if only the number of triangles is limited; it is about the precision of files.
 constexpr double least_error_mm = 1e-4;
 // The width of the bevel as a share of the rim's height. The bevel is 17 degrees off the vertical, so that a
@@ -32,8 +32,15 @@ constexpr double ornament_share = .997;  // the same limit for walls of ornament
 constexpr double most_held_mm = 1e-5;    // default limit for moves of points by enforce_draft_in_float()
 constexpr double rounded_up = 1.002;  // largest factor by which the polygon of a curved rim steepens bevels
 
-bool is_curved(const ReliefOptions& options) {
-  return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
+// Returns the share of the tolerance for one step that bends triangles.
+double bending_share(const ReliefOptions& options) {
+  return options.wrap.kind == WrapKind::none ? base_share : wrap_share;
+}
+
+// Returns the share of the tolerance that simplification may use.
+double simplification_share(const ReliefOptions& options) {
+  if (!is_curved(options)) return 1 - turning_share;
+  return options.wrap.kind == WrapKind::none ? 1 - base_share : 1 - 2 * wrap_share;
 }
 
 // Returns the least width of a bevel of this height whose angle to the vertical is at least `draft_deg`.
@@ -134,8 +141,7 @@ bool is_simplified_as_plate(const ReliefOptions& options) {
 }
 
 SimplifyOptions simplest_front(const ReliefOptions& options) {
-  SimplifyOptions simplest{(1 - (is_curved(options) ? bending_share : turning_share)) *
-                           options.tolerance_mm.value_or(least_error_mm)};
+  SimplifyOptions simplest{simplification_share(options) * options.tolerance_mm.value_or(least_error_mm)};
   if (options.triangles) simplest.most_triangles = static_cast<std::size_t>(*options.triangles);
   if (!options.draft_deg) return simplest;
   simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
@@ -165,7 +171,7 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
   if (options.draft_deg) plate.ornament_slope = ornament_share * slope_at_draft(*options.draft_deg);
   if (options.finish == Finish::reachable) plate.tool = options.tool;
   if (options.tolerance_mm)
-    plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
+    plate.tolerance_mm = std::max(1e-4, bending_share(options) * *options.tolerance_mm);
   if (!is_simplified_as_plate(options)) return plate;
   const SimplifyOptions simplest = simplest_front(options);
   plate.simplify_mm = simplest.tolerance_mm;

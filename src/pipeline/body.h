@@ -18,6 +18,11 @@ namespace relievo {
 // Returns whether the form swaps left and right.
 bool is_mirrored(Form form);
 
+// Returns whether the options ask for a curved base or a wrap.
+inline bool is_curved(const ReliefOptions& options) {
+  return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
+}
+
 // Returns whether the options ask for a simplified solid.
 inline bool is_simplified(const ReliefOptions& options) {
   return options.tolerance_mm || options.triangles;

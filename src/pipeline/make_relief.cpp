@@ -73,7 +73,7 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
   report.front_triangles = plate.front_triangles;
   report.full_triangles = formed.full_triangles;
   if (is_simplified(options))
-    report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
+    report.simplification_error_mm = formed.simplification_error_mm + body.solid.error_mm;
   report.tool = options.tool;
   if (options.tool) report.reach = measure_reach(plate, *options.tool);
   report.ornaments = plate.ornaments;

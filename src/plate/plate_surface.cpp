@@ -207,6 +207,11 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
   return {};
 }
 
+// Returns a spacing for the points on a flat bottom. It gives few triangles, and none along the sides is thin.
+double flat_spacing(std::span<const Vec2> outline) {
+  return Box::of(outline).size().head<2>().minCoeff() / 8;
+}
+
 }  // namespace
 
 void fill_colours(Solid& solid) {
@@ -238,6 +243,10 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
           ? none
           : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
   RELIEVO_TRY(PlateSurface surface, flat_plate_surface(front, options, spacing));
+  if (std::isfinite(spacing))
+    surface.spacing = is_wrapped ? ground_spacing(target.deformation, outline, front.ground_mm,
+                                                  options.tolerance_mm + options.simplify_mm)
+                                 : std::max(spacing, flat_spacing(outline));
   const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
   RELIEVO_CHECK(follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner));
   return surface;

@@ -18,7 +18,7 @@ namespace relievo {
 struct PlateSurface {
   Solid solid;                                               // without walls and bottom
   IndexPolygon outline;                                      // empty if the plate has no ground
-  double spacing = std::numeric_limits<double>::infinity();  // distance between points on the ground
+  double spacing = std::numeric_limits<double>::infinity();  // distance between points on the bottom
 };
 
 // Light grey, the colour of ground, walls and bottom under a coloured relief.

@@ -28,6 +28,25 @@ std::vector<Vec2> back_of(const Solid& plate) {
   return places;
 }
 
+// Subdivides the plate's triangles until they can be bent. Returns the error in mm. The triangles of a simplified
+// plate approximate the relief on a surface that is curved by Wrap::sag(). So they are compared with the bent
+// triangles on that surface, where they are flat.
+double refine_for(const Wrap& wrap, Solid& plate, const PlateOptions& options) {
+  const auto sag = [&](const Vec3& p) { return options.simplify_mm > 0 ? wrap.sag(p.head<2>()) : 0.; };
+  const auto lift = [&](double sign) {
+    parallel_for(plate.points.size(),
+                 [&](std::size_t i) { plate.points[i].z() += sign * sag(plate.points[i]); });
+  };
+  Deformation deformation;
+  deformation.at = [&](const Vec3& p) { return wrap.at(p.head<2>(), p.z() - sag(p) - plate.ground_mm); };
+  deformation.min_feature_mm = wrap.min_radius_mm();
+  IndexPolygon no_outline;
+  lift(1);
+  const double error_mm = refine(plate, no_outline, deformation, options.tolerance_mm);
+  lift(-1);
+  return error_mm;
+}
+
 // A point on one of the plate's two sides that will be joined.
 struct SidePoint {
   double along, z;
@@ -110,19 +129,13 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   RELIEVO_TRY(const Wrap wrap, plate_wrap(plate, options));
   const double highest = used_box(plate.points, plate.triangles).max.z();
   RELIEVO_CHECK(check_room(wrap, plate.ground_mm, highest - plate.ground_mm));
-  Deformation deformation;
-  deformation.at = [&](const Vec3& p) { return wrap.at(p.head<2>(), p.z() - plate.ground_mm); };
-  deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
-  IndexPolygon no_outline;
-  // A simplified front deviates by its own tolerance. So the tolerance of refine() is larger here; otherwise
-  // refine() would undo the simplification.
-  const double error_mm =
-      refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
-  body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;
+  body.error_mm += refine_for(wrap, body, options);
   RELIEVO_CHECK(check_closed(options, wrap));
   if (wrap.is_closed()) RELIEVO_CHECK(close_ring(body, wrap.across()));
-  parallel_for(body.points.size(), [&](std::size_t i) { body.points[i] = deformation.at(body.points[i]); });
+  parallel_for(body.points.size(), [&](std::size_t i) {
+    body.points[i] = wrap.at(body.points[i].head<2>(), body.points[i].z() - plate.ground_mm);
+  });
   const Box box = used_box(body.points, body.triangles);
   for (Vec3& p : body.points) p -= box.min;
   separate_coincident(body, box.size().z() / 2);

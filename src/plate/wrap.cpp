@@ -128,9 +128,10 @@ Vec3 Wrap::at(const Vec2& place, double above_ground_mm) const {
 double Wrap::sag(const Vec2& place) const {
   const Vec2 p = place - middle_;
   if (kind_ == WrapKind::none) return 0;
-  if (kind_ == WrapKind::sphere) return -p.squaredNorm() / (2 * radius_);
+  const double side = is_inside_ ? 1 : -1;
+  if (kind_ == WrapKind::sphere) return side * p.squaredNorm() / (2 * radius_);
   const double way = across_.dot(p);
-  return -way * way / (2 * min_radius_);
+  return side * way * way / (2 * min_radius_);
 }
 
 double Wrap::mm_per_degree() const {

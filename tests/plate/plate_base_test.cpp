@@ -224,7 +224,8 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
 // Simplification may add points inside large triangles. There, too, the curved surface must be followed.
 TEST(PlateBase, SimplerPlatesOfAWrapKeepTheirHeightsInsideLargeTriangles) {
   const HeightFieldMesh front = hill_in_large_triangles();
-  for (const char* wrap : {"cylinder:turn=200", "cylinder:turn=200,inside", "cone:turn=200", "sphere:turn=100"}) {
+  for (const char* wrap :
+       {"cylinder:turn=200", "cylinder:turn=200,inside", "cone:turn=200", "sphere:turn=100"}) {
     PlateOptions options{2, 1.5};
     options.wrap = *parse_wrap(wrap);
     options.tolerance_mm = .004;
@@ -240,6 +241,34 @@ TEST(PlateBase, SimplerPlatesOfAWrapKeepTheirHeightsInsideLargeTriangles) {
         if (!std::isnan(off)) worst = std::max(worst, std::abs(off));
       }
     EXPECT_LE(worst, .034) << wrap;
+  }
+}
+
+// The bent front is compared with the exact one along lines through the cylinder's axis, also inside triangles.
+TEST(PlateBase, SimplerPlatesOnACylinderTellTheirError) {
+  PlateOptions options{2, 1.5};
+  options.wrap = *parse_wrap("cylinder:turn=200");
+  options.tolerance_mm = .004;
+  for (const HeightFieldMesh& front : {scattered_hill(), hill_in_large_triangles()}) {
+    options.simplify_mm = 0;
+    const Solid full = test::plate_of(front, options);
+    const Heights heights(full);
+    for (const double simplify_mm : {0., .03}) {
+      options.simplify_mm = simplify_mm;
+      const Solid bent = value_of(wrap_plate(test::plate_of(front, options), options));
+      const Box box = Box::of(bent.points), flat = Box::of(full.points);
+      const double half = 100 * std::numbers::pi / 180, radius = flat.size().x() / 2 / half;
+      const Vec2 axis(box.centre().x(),
+                      -radius * std::cos(half));  // the lowest points are at the plate's sides
+      double worst = 0;
+      each_place(bent, [&](const Vec3& p) {
+        const Vec2 from_axis(p.x() - axis.x(), p.z() - axis.y());
+        const double x = flat.centre().x() + radius * std::atan2(from_axis.x(), from_axis.y());
+        const double off = from_axis.norm() - radius + full.ground_mm - heights.at({x, p.y()});
+        if (!std::isnan(off)) worst = std::max(worst, std::abs(off));
+      });
+      EXPECT_LE(worst, 4. / 3 * bent.error_mm);  // inside triangles it may be larger than on their edges
+    }
   }
 }
 

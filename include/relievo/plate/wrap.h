@@ -53,9 +53,8 @@ class Wrap {
   // must be less deep than that.
   double min_radius_mm() const { return min_radius_; }
 
-  // Returns the z of the bent ground at this place, relative to the plane that is tangent to the ground in
-  // the plate's middle. The result is in mm, approximate, and never positive. Only used to choose a
-  // triangulation.
+  // Returns the approximate z in mm of the bent ground at this place, relative to the plane that is tangent to the
+  // ground in the plate's middle. It is quadratic in the place. Inside a body it is positive, otherwise negative.
   double sag(const Vec2& place) const;
 
   double diameter_mm() const { return 2 * radius_; }
