@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "geometry/slope_limit.h"
@@ -104,10 +106,11 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The front is simplified at most this often to find how many triangles it may have. For a plane base the
-// first estimate is already right.
-constexpr int most_attempts = 4;
+// The front is simplified at most this often to find how many triangles it may have, or with which tolerance. For a
+// plane base the first estimate is already right.
+constexpr int most_attempts = 4, most_tolerances = 8;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
+constexpr double first_tolerance_mm = .05, most_tolerance_mm = 100;
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));
@@ -124,6 +127,11 @@ ReliefOptions with_front_limit(ReliefOptions options, double front_triangles) {
 
 double count(const FormedBody& made) {
   return static_cast<double>(made.body.solid.triangles.size());
+}
+
+std::unexpected<Error> too_few_triangles(double least, double most) {
+  return option_error("triangles", cat("expected at least ", std::ceil(least),
+                                       ", which the outline of this relief and its body need, found ", most));
 }
 
 // Returns a body whose front has nearly as many triangles as the limit for the solid allows. `full` is the
@@ -147,8 +155,53 @@ Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole,
     limit = std::max(0., limit + 1.005 * (most - made_count) / sides);
   }
   if (best) return std::move(*best);
-  return option_error("triangles", cat("expected at least ", std::ceil(least),
-                                       ", which the outline of this relief and its body need, found ", most));
+  return too_few_triangles(least, most);
+}
+
+// A body that was made with a tolerance, and the tolerances between which the best one lies.
+struct ToleranceSearch {
+  double most;  // largest number of triangles
+  double least = std::numeric_limits<double>::infinity();
+  std::optional<FormedBody> best = {};  // has the most triangles of those within the limit
+  double too_fine_mm = 0, coarse_mm = std::numeric_limits<double>::infinity();
+
+  void take(FormedBody made, double tolerance_mm) {
+    least = std::min(least, count(made));
+    (count(made) > most ? too_fine_mm : coarse_mm) = tolerance_mm;
+    if (count(made) <= most && (!best || count(made) > count(*best))) best = std::move(made);
+  }
+
+  bool is_over() const {
+    return (best && count(*best) > close_enough * most) || coarse_mm < 1.01 * too_fine_mm ||
+           too_fine_mm >= most_tolerance_mm;
+  }
+
+  // Returns the next tolerance. The number of triangles is about inversely proportional to the tolerance, unless most
+  // triangles follow an outline.
+  double next(double tolerance_mm, double count) const {
+    const double next_mm = tolerance_mm * (best ? count / (.99 * most) : std::max(1.5, count / (.99 * most)));
+    const bool is_between = next_mm > too_fine_mm && next_mm < coarse_mm;
+    return std::min(most_tolerance_mm, is_between ? next_mm : std::sqrt(too_fine_mm * coarse_mm));
+  }
+};
+
+// Returns a body on a curved surface that has nearly as many triangles as allowed. Ground, walls and back follow that
+// surface, too, so the tolerance is chosen with which the whole body has that many. `whole` has too many triangles.
+Result<FormedBody> make_curved_within(const FormedFront& full, const FormedBody& whole, ReliefOptions options,
+                                      Progress* progress) {
+  ToleranceSearch search{.most = *options.triangles, .too_fine_mm = options.tolerance_mm.value_or(0)};
+  options.triangles.reset();
+  double tolerance_mm =
+      options.tolerance_mm ? search.next(*options.tolerance_mm, count(whole)) : first_tolerance_mm;
+  for (int attempt = 0; attempt < most_tolerances && !search.is_over(); ++attempt) {
+    options.tolerance_mm = tolerance_mm;
+    RELIEVO_TRY(FormedBody made, make(full, options, progress));
+    const double made_count = count(made);
+    search.take(std::move(made), tolerance_mm);
+    tolerance_mm = search.next(tolerance_mm, made_count);
+  }
+  if (search.best) return std::move(*search.best);
+  return too_few_triangles(search.least, search.most);
 }
 
 }  // namespace
@@ -219,7 +272,8 @@ Result<FormedBody> make_formed_body(FormedFront full, const ReliefOptions& optio
   unlimited.triangles.reset();
   RELIEVO_TRY(FormedBody whole, make(full, unlimited, progress));
   if (count(whole) <= *options.triangles) return whole;
-  return make_within(full, whole, options, progress);
+  return is_curved(options) ? make_curved_within(full, whole, options, progress)
+                            : make_within(full, whole, options, progress);
 }
 
 }  // namespace relievo

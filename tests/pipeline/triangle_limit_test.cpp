@@ -35,6 +35,24 @@ TEST(TriangleLimit, IsNearlyReachedByAllBodies) {
     }
 }
 
+// Ground, walls and back of a curved body need triangles, too, but must not take too many from the relief.
+TEST(TriangleLimit, CostsLittleMoreOnCurvedBodies) {
+  const double most = 40000;
+  const double flat = *value_of(make_relief(model(), options_with(most))).report.simplification_error_mm;
+  for (const char* body : {"wave:height=4,length=20", "cylinder:turn=200", "sphere:turn=150,inside"}) {
+    ReliefOptions options = options_with(most);
+    if (std::string_view(body).starts_with("wave"))
+      options.base = value_of(parse_base(body));
+    else
+      options.wrap = value_of(parse_wrap(body));
+    const auto made = value_of(make_relief(model(), options));
+    EXPECT_EQ(check_solid(made.solid), "") << body;
+    EXPECT_LE(static_cast<double>(made.solid.triangles.size()), most) << body;
+    EXPECT_GT(static_cast<double>(made.solid.triangles.size()), .9 * most) << body;
+    EXPECT_LT(*made.report.simplification_error_mm, 2 * flat) << body;
+  }
+}
+
 TEST(TriangleLimit, CostsLessTheMoreItAllows) {
   double before = 1;
   for (const double most : {15000, 30000, 60000}) {
