@@ -133,8 +133,8 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
     lines.push_back(cat("no height was asked for; it is ", std::round(1e3 * report.height_mm) / 1e3, " mm, ",
                         report.height_mm < .999 * *report.height_usual_mm ? "which is what the view reaches"
                                                                           : "5 % of the width"));
-  if (report.has_idle_alpha)
-    lines.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
+  for (const auto& [name, reason] : report.idle_options)
+    lines.push_back(cat(name, " has no effect ", reason));
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));

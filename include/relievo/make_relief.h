@@ -88,9 +88,9 @@ struct ReliefReport : ScanReport {
   std::optional<Wrapped> wrap;  // if set, `offset` and `scale` are for the plate before bending
 
   // Facts that programs may warn about.
-  bool has_idle_alpha = false;     // whether an alpha was given that has no effect
-  bool has_needed_steps = false;   // whether the height needed more steps at depth jumps than requested
-  std::vector<SampleNote> sample;  // notes on the sampling; empty if the caller prepared the model
+  std::vector<IdleOption> idle_options;  // given options that have no effect
+  bool has_needed_steps = false;         // whether the height needed more steps at depth jumps than requested
+  std::vector<SampleNote> sample;        // notes on the sampling; empty if the caller prepared the model
 };
 
 struct MadeRelief {

@@ -138,4 +138,14 @@ struct ReliefOptions : NumericOptions {
 // option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
+// A given option that has no effect.
+struct IdleOption {
+  std::string_view name;
+  std::string_view reason;  // completes the sentence "NAME has no effect"
+};
+
+// Returns the given options that have no effect with the others, for example a light for a lithophane. A number that
+// equals its default does not count as given. The options must have passed check().
+std::vector<IdleOption> idle_options(const ReliefOptions& options);
+
 }  // namespace relievo

@@ -45,7 +45,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.has_needed_steps = shape.steps > options.steps;
   report.height_requested_mm = options.height_mm;
   if (!options.height_mm) report.height_usual_mm = options.effective_height_mm();
-  report.has_idle_alpha = options.alpha && compression.beta == 0;
+  report.idle_options = idle_options(options);
 }
 
 // Reports the heights of the front that the tool cuts. They differ from the heights of the relief, because

@@ -146,6 +146,17 @@ double by_method(const ReliefOptions& options, double paper, double others) {
 }
 
 // Returns the value with the option's type. A length may be a text with a unit.
+// Returns whether an option of the relief's shape is given and differs from its default.
+bool is_given(const OptionRow& option, const ReliefOptions& options) {
+  ReliefOptions plain;
+  plain.form = options.form;
+  plain.method = options.effective_method();
+  if (option.access.number) return option.access.number(options) != option.access.number(plain);
+  if (option.name == "tone") return options.tone.has_value();
+  if (option.name == "light") return options.light.has_value();
+  return option.name == "strokes" && !options.strokes.empty();
+}
+
 Result<OptionValue> typed_value(const OptionRow& option, const OptionValue& value) {
   if (std::holds_alternative<double>(value) == option.is_number()) return value;
   if (!option.is_length() || !option.is_number()) return option_error({}, std::string(expected_type(option)));
@@ -232,6 +243,23 @@ Result<void> check(const ReliefOptions& options) {
   RELIEVO_CHECK(check_base(options));
   RELIEVO_CHECK(check_text_options(options));
   return check_method(options);
+}
+
+std::vector<IdleOption> idle_options(const ReliefOptions& options) {
+  std::vector<IdleOption> idle;
+  if (options.alpha && options.effective_saturation() == 0)
+    idle.push_back({"alpha", "at saturation 0; a height sets how flat the relief is"});
+  if (options.corner_mm != NumericOptions{}.corner_mm && options.outline != Outline::round)
+    idle.push_back({"corner", "without outline round"});
+  if (options.light_contrast != NumericOptions{}.light_contrast && !options.light &&
+      options.form != Form::lithophane)
+    idle.push_back({"light-contrast", "without light"});
+  if (options.form != Form::lithophane) return idle;
+  for (const OptionRow& row : option_table())
+    if (row.stage == OptionStage::shape && !row.name.contains("height") && row.name != "width" &&
+        is_given(row, options))
+      idle.push_back({row.name, "on a lithophane, which is thick where the picture of the model is dark"});
+  return idle;
 }
 
 Result<void> check_range(const OptionRow& option, double number) {

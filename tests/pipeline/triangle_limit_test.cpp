@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-const ReliefModel& model() {
+const ReliefModel& limited_model() {
   static const ReliefModel made =
       *prepare(test::joined(test::torus(12000, 1.5, .4), test::sphere(8000, .8)), View{});
   return made;
@@ -25,7 +25,7 @@ TEST(TriangleLimit, IsNearlyReachedByAllBodies) {
       ReliefOptions options = options_with(most);
       options.outline = outline;
       options.base.kind = base;
-      const auto made = value_of(make_relief(model(), options));
+      const auto made = value_of(make_relief(limited_model(), options));
       EXPECT_EQ(check_solid(made.solid), "");
       const auto count = static_cast<double>(made.solid.triangles.size());
       EXPECT_LE(count, most);
@@ -38,14 +38,15 @@ TEST(TriangleLimit, IsNearlyReachedByAllBodies) {
 // Ground, walls and back of a curved body need triangles, too, but must not take too many from the relief.
 TEST(TriangleLimit, CostsLittleMoreOnCurvedBodies) {
   const double most = 40000;
-  const double flat = *value_of(make_relief(model(), options_with(most))).report.simplification_error_mm;
+  const double flat =
+      *value_of(make_relief(limited_model(), options_with(most))).report.simplification_error_mm;
   for (const char* body : {"wave:height=4,length=20", "cylinder:turn=200", "sphere:turn=150,inside"}) {
     ReliefOptions options = options_with(most);
     if (std::string_view(body).starts_with("wave"))
       options.base = value_of(parse_base(body));
     else
       options.wrap = value_of(parse_wrap(body));
-    const auto made = value_of(make_relief(model(), options));
+    const auto made = value_of(make_relief(limited_model(), options));
     EXPECT_EQ(check_solid(made.solid), "") << body;
     EXPECT_LE(static_cast<double>(made.solid.triangles.size()), most) << body;
     EXPECT_GT(static_cast<double>(made.solid.triangles.size()), .9 * most) << body;
@@ -56,7 +57,7 @@ TEST(TriangleLimit, CostsLittleMoreOnCurvedBodies) {
 TEST(TriangleLimit, CostsLessTheMoreItAllows) {
   double before = 1;
   for (const double most : {15000, 30000, 60000}) {
-    const auto made = value_of(make_relief(model(), options_with(most)));
+    const auto made = value_of(make_relief(limited_model(), options_with(most)));
     EXPECT_LT(*made.report.simplification_error_mm, .7 * before);
     before = *made.report.simplification_error_mm;
   }
@@ -64,24 +65,24 @@ TEST(TriangleLimit, CostsLessTheMoreItAllows) {
 
 TEST(TriangleLimit, ChangesNothingWhereFewerAreMade) {
   ReliefOptions options = options_with(1e6);
-  const auto limited = value_of(make_relief(model(), options));
+  const auto limited = value_of(make_relief(limited_model(), options));
   options.triangles.reset();
-  EXPECT_EQ(limited.solid.triangles, value_of(make_relief(model(), options)).solid.triangles);
+  EXPECT_EQ(limited.solid.triangles, value_of(make_relief(limited_model(), options)).solid.triangles);
 }
 
 TEST(TriangleLimit, ActsTogetherWithATolerance) {
   ReliefOptions options = options_with(1e6);
   options.tolerance_mm = .02;
-  const auto within = value_of(make_relief(model(), options));
+  const auto within = value_of(make_relief(limited_model(), options));
   EXPECT_LE(*within.report.simplification_error_mm, .02);
   options.triangles = std::floor(.7 * static_cast<double>(within.solid.triangles.size()));
-  const auto fewer = value_of(make_relief(model(), options));
+  const auto fewer = value_of(make_relief(limited_model(), options));
   EXPECT_LE(static_cast<double>(fewer.solid.triangles.size()), *options.triangles);
   EXPECT_GT(*fewer.report.simplification_error_mm, .02);
 }
 
 TEST(TriangleLimit, GivesFewNeedles) {
-  const Solid& solid = value_of(make_relief(model(), options_with(20000))).solid;
+  const Solid& solid = value_of(make_relief(limited_model(), options_with(20000))).solid;
   std::vector<double> angles;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     std::array<Vec3, 3> p;
