@@ -165,7 +165,8 @@ double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) 
   return std::max(narrowest / 3, 2 * heights.mm_per_sample());
 }
 
-// Returns the points of the new surface, which is the one that the tool leaves.
+// Returns the points of the new surface, which is the one that the tool leaves. The points along `edges` must lie on the
+// old surface, because ToolHeights::left_at() compares points with that.
 PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
                         std::span<const RimEdge> edges) {
   const Solid& solid = surface.solid;
@@ -179,7 +180,7 @@ PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
   for (Index i = 0; i < solid.points.size(); ++i)
     if (is_free[i]) set.add_if_reached(solid.points[i], colour_of(solid, i));
   const double spacing = edge_spacing(heights, edges);
-  for (const RimEdge& edge : edges.first(edges.size() - 1))
+  for (const RimEdge& edge : edges)
     for (const Vec2& p : subdivided(edge.polygon, spacing))
       set.add_if_reached({p.x(), p.y(), solid.ground_mm + edge.height_mm}, plate_colour);
   set.add_samples();
@@ -209,7 +210,8 @@ void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const Rim
   }
   // The triangles of the first pass can lie below the surface that the tool leaves. A second pass raises them
   // (docs/decisions/tool.md).
-  for (int pass = 0; pass < 2; ++pass) close_once(surface, tool, edges);
+  close_once(surface, tool, edges.first(edges.size() - 1));  // the last edge is the outline
+  close_once(surface, tool, {});                             // the edges that the tool reaches are points now
 }
 
 }  // namespace relievo

@@ -79,6 +79,20 @@ TEST(ReachableSurface, KeepsTheFootOfAConeThatAFlatToolReaches) {
   for (const Vec3& p : cone.points) EXPECT_TRUE(test::has_corner_at(after, p.head<2>() + Vec2(7, 7), .01));
 }
 
+// Samples of the surface do not show a pit that consists of one point, so points are compared with their neighbours.
+TEST(ReachableSurface, LeavesNoPitAtTheFootOfARim) {
+  for (const Outline outline : {Outline::rectangle, Outline::circle}) {
+    const Solid solid = test::plate_of(block(), with_tool({5, 3, outline, 5, RimOptions{3, 2, .5}}));
+    std::vector<double> lowest_beside(solid.points.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t t = 0; t < solid.front_triangles; ++t)
+      for (const Index i : solid.triangles[t])
+        for (const Index j : solid.triangles[t])
+          if (i != j) lowest_beside[i] = std::min(lowest_beside[i], solid.points[j].z());
+    for (std::size_t i = 0; i < solid.points.size(); ++i)
+      if (std::isfinite(lowest_beside[i])) EXPECT_LT(lowest_beside[i] - solid.points[i].z(), .05) << i;
+  }
+}
+
 TEST(ReachableSurface, WithoutGroundIsLifted) {
   HeightFieldMesh front = block();
   front.is_relief.assign(front.triangles.size(), 1);
