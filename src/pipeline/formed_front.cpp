@@ -110,7 +110,7 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
 // plane base the first estimate is already right.
 constexpr int most_attempts = 4, most_tolerances = 8;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
-constexpr double first_tolerance_mm = .05, most_tolerance_mm = 100;
+constexpr double first_tolerance_mm = .05;
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));
@@ -160,8 +160,9 @@ Result<FormedBody> make_within(const FormedFront& full, const FormedBody& whole,
 
 // A body that was made with a tolerance, and the tolerances between which the best one lies.
 struct ToleranceSearch {
-  double most;  // largest number of triangles
-  double least = std::numeric_limits<double>::infinity();
+  double most;                          // largest number of triangles
+  double most_tolerance_mm;             // with larger tolerances, the front could cross the back
+  double least;                         // smallest number of triangles so far
   std::optional<FormedBody> best = {};  // has the most triangles of those within the limit
   double too_fine_mm = 0, coarse_mm = std::numeric_limits<double>::infinity();
 
@@ -179,7 +180,7 @@ struct ToleranceSearch {
   // Returns the next tolerance. The number of triangles is about inversely proportional to the tolerance, unless most
   // triangles follow an outline.
   double next(double tolerance_mm, double count) const {
-    const double next_mm = tolerance_mm * (best ? count / (.99 * most) : std::max(1.5, count / (.99 * most)));
+    const double ratio = count / (.99 * most), next_mm = tolerance_mm * (best ? ratio : std::max(3., ratio));
     const bool is_between = next_mm > too_fine_mm && next_mm < coarse_mm;
     return std::min(most_tolerance_mm, is_between ? next_mm : std::sqrt(too_fine_mm * coarse_mm));
   }
@@ -189,7 +190,10 @@ struct ToleranceSearch {
 // surface, too, so the tolerance is chosen with which the whole body has that many. `whole` has too many triangles.
 Result<FormedBody> make_curved_within(const FormedFront& full, const FormedBody& whole, ReliefOptions options,
                                       Progress* progress) {
-  ToleranceSearch search{.most = *options.triangles, .too_fine_mm = options.tolerance_mm.value_or(0)};
+  ToleranceSearch search{.most = *options.triangles,
+                         .most_tolerance_mm = options.effective_thickness_mm() / 2,
+                         .least = count(whole),
+                         .too_fine_mm = options.tolerance_mm.value_or(0)};
   options.triangles.reset();
   double tolerance_mm =
       options.tolerance_mm ? search.next(*options.tolerance_mm, count(whole)) : first_tolerance_mm;
