@@ -245,7 +245,7 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
   RELIEVO_TRY(PlateSurface surface, flat_plate_surface(front, options, spacing));
   if (std::isfinite(spacing))
     surface.spacing = is_wrapped ? ground_spacing(target.deformation, outline, front.ground_mm,
-                                                  options.tolerance_mm + options.simplify_mm)
+                                                  options.tolerance_mm + options.simplify_mm / 2)
                                  : std::max(spacing, flat_spacing(outline));
   const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
   RELIEVO_CHECK(follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner));
