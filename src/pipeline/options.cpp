@@ -145,7 +145,6 @@ double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
 }
 
-// Returns the value with the option's type. A length may be a text with a unit.
 // Returns whether an option of the relief's shape is given and differs from its default.
 bool is_given(const OptionRow& option, const ReliefOptions& options) {
   ReliefOptions plain;
@@ -157,6 +156,7 @@ bool is_given(const OptionRow& option, const ReliefOptions& options) {
   return option.name == "strokes" && !options.strokes.empty();
 }
 
+// Returns the value with the option's type. A length may be a text with a unit.
 Result<OptionValue> typed_value(const OptionRow& option, const OptionValue& value) {
   if (std::holds_alternative<double>(value) == option.is_number()) return value;
   if (!option.is_length() || !option.is_number()) return option_error({}, std::string(expected_type(option)));
@@ -247,14 +247,15 @@ Result<void> check(const ReliefOptions& options) {
 
 std::vector<IdleOption> idle_options(const ReliefOptions& options) {
   std::vector<IdleOption> idle;
-  if (options.alpha && options.effective_saturation() == 0)
+  const bool is_lithophane = options.form == Form::lithophane;
+  if (options.alpha && options.effective_saturation() == 0 && !is_lithophane)
     idle.push_back({"alpha", "at saturation 0; a height sets how flat the relief is"});
   if (options.corner_mm != NumericOptions{}.corner_mm && options.outline != Outline::round)
     idle.push_back({"corner", "without outline round"});
   if (options.light_contrast != NumericOptions{}.light_contrast && !options.light &&
       options.form != Form::lithophane)
     idle.push_back({"light-contrast", "without light"});
-  if (options.form != Form::lithophane) return idle;
+  if (!is_lithophane) return idle;
   for (const OptionRow& row : option_table())
     if (row.stage == OptionStage::shape && !row.name.contains("height") && row.name != "width" &&
         is_given(row, options))
