@@ -24,9 +24,9 @@ constexpr std::size_t grain = 8192;  // points or edges that one task measures
 // triangles are divided until they follow the original's triangles, which do not exceed the limit.
 constexpr double steep_tolerance_mm = 1e-6;
 
-// In each round, a limit for the number of triangles postpones errors below this share of the largest error. But it does
-// not postpone more than needed to leave this share of the triangles for the next rounds, so that few rounds suffice.
-constexpr double postponed_share = .5, left_share = .7;
+// In each round, a limit for the number of triangles postpones errors below `postponed_share` of the largest error. But so
+// that few rounds suffice, a round may use `used_share` of the remaining triangles for the worse half of all errors.
+constexpr double postponed_share = .5, used_share = .3;
 
 // A position where a triangle of the approximation exceeds its tolerance. It is a point of the
 // original front, or a position on an edge of it, given as a share of the edge.
@@ -151,7 +151,7 @@ class Simplifier {
     std::ranges::stable_sort(worst, std::ranges::greater(), &Candidate::error);
     const auto is_large = [&](const Candidate& c) { return c.error >= postponed_share * worst[0].error; };
     const auto large = static_cast<std::size_t>(std::ranges::count_if(worst, is_large));
-    const auto few = static_cast<std::size_t>((1 - left_share) * static_cast<double>(left));
+    const auto few = static_cast<std::size_t>(used_share * static_cast<double>(left));
     worst.resize(std::min(left, std::max(large, std::min(few, (worst.size() + 1) / 2))));
   }
 
