@@ -252,8 +252,7 @@ std::vector<IdleOption> idle_options(const ReliefOptions& options) {
     idle.push_back({"alpha", "at saturation 0; a height sets how flat the relief is"});
   if (options.corner_mm != NumericOptions{}.corner_mm && options.outline != Outline::round)
     idle.push_back({"corner", "without outline round"});
-  if (options.light_contrast != NumericOptions{}.light_contrast && !options.light &&
-      options.form != Form::lithophane)
+  if (options.light_contrast != NumericOptions{}.light_contrast && !options.light && !is_lithophane)
     idle.push_back({"light-contrast", "without light"});
   if (!is_lithophane) return idle;
   for (const OptionRow& row : option_table())
