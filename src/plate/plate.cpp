@@ -42,7 +42,7 @@ void add_walls(Solid& solid, const IndexPolygon& top, const IndexPolygon& bottom
 }
 
 // Adds the walls under the outline, and the bottom. The bottom is a fan of triangles or, if the
-// plate will be bent, a lattice.
+// plate is curved, a lattice.
 void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
   const IndexPolygon bottom = add_below(solid, outline);
   add_walls(solid, outline, bottom);

@@ -207,9 +207,14 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
   return {};
 }
 
-// Returns a spacing for the points on a flat bottom. It gives few triangles, and none along the sides is thin.
-double flat_spacing(std::span<const Vec2> outline) {
-  return Box::of(outline).size().head<2>().minCoeff() / 8;
+// Returns the distance between points on the bottom of a plate whose points on the ground have the distance `spacing`.
+// The bottom of a plate on a base is flat and needs few points. The back of a wrap may use half the tolerance.
+double bottom_spacing(const TargetSurface& target, std::span<const Vec2> outline, double ground_z,
+                      double spacing, const PlateOptions& options) {
+  if (options.wrap.kind == WrapKind::none)
+    return std::max(spacing, Box::of(outline).size().head<2>().minCoeff() / 8);
+  return ground_spacing(target.deformation, outline, ground_z,
+                        options.tolerance_mm + options.simplify_mm / 2);
 }
 
 }  // namespace
@@ -244,9 +249,7 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
           : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
   RELIEVO_TRY(PlateSurface surface, flat_plate_surface(front, options, spacing));
   if (std::isfinite(spacing))
-    surface.spacing = is_wrapped ? ground_spacing(target.deformation, outline, front.ground_mm,
-                                                  options.tolerance_mm + options.simplify_mm / 2)
-                                 : std::max(spacing, flat_spacing(outline));
+    surface.spacing = bottom_spacing(target, outline, front.ground_mm, spacing, options);
   const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
   RELIEVO_CHECK(follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner));
   return surface;
