@@ -106,8 +106,7 @@ Result<HeightFieldMesh> sampled(HeightFieldMesh front, const Surface& surface,
   return keeps_draft ? std::move(samples) : std::move(front);
 }
 
-// The front is simplified at most this often to find how many triangles it may have, or with which tolerance. For a
-// plane base the first estimate is already right.
+// The front is simplified at most this often to find how many triangles it may have, or with which tolerance.
 constexpr int most_attempts = 4, most_tolerances = 8;
 constexpr double close_enough = .98;  // this share of the requested number of triangles suffices
 constexpr double first_tolerance_mm = .05;
